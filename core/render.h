@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pass 3: the rendering pass [LW10 3.3].
+#pragma once
+
+#include "core/gbuffer.h"
+#include "core/image.h"
+#include "core/photon_map.h"
+#include "core/world.h"
+
+namespace pnr {
+
+// Per-pixel sample counts of what went wrong; reported, never hidden (design.md: "No NaN, no infinity reaches an image").
+struct SampleFaults {
+    std::int64_t nan = 0, inf = 0, negative = 0;
+};
+
+// AOVs of the photoreal light, filled when asked for (empty images else); radiance of the pixel.
+struct LightParts {
+    bool wanted = false;
+    Image<Color> direct, indirect, caustic, specular;
+    Image<float> photon_density;
+};
+
+struct RenderResult {
+    Layer layer;
+    SampleFaults faults;
+    LightParts parts;
+    std::int64_t camera_rays = 0, gathers = 0;
+};
+
+// Renders `window` of the picture. Pixels wholly painted (coverage 1, seen directly, mix 1) get no rays; of border pixels only
+// the share that is not painted is rendered; behind mirrors and glass the branch that leads to paint is left out.
+// `map` may be empty (raytraced scenes).
+RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap& map, const Settings& settings,
+                    PixelRect window, bool want_parts, const Progress& progress = {});
+
+} // namespace pnr

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The scene as it was said: what the parser builds and build_world reads. Nothing is cached or accelerated here; mesh
+// files and pictures are named, not loaded. All coordinates are the author's (scene space).
+#pragma once
+
+#include "core/camera.h"
+#include "core/pigment.h"
+#include "core/settings.h"
+#include "core/shape.h"
+#include "core/types.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pnr {
+
+// POV-Ray's `reflection`: between min (facing) and max (grazing).
+struct Reflection {
+    Color min{0}, max{0};
+    double falloff = 1;
+    double exponent = 1;
+    double metallic = 0;   // 0..1: how far the pigment tints it
+    bool fresnel = false;
+};
+
+struct Finish { // defaults are POV-Ray 3.7's
+    Color ambient{0.1f};
+    Color emission{0};
+    double diffuse = 0.6;
+    double brilliance = 1;
+    double phong = 0, phong_size = 40;
+    double specular = 0, roughness = 0.05;
+    double metallic = 0;   // of the highlights
+    Reflection reflection;
+    bool conserve_energy = false;
+};
+
+struct Interior {
+    double ior = 1;
+    double fade_distance = 0, fade_power = 0;
+    Color fade_color{0};
+};
+
+struct Texture {
+    Pigment pigment;
+    Finish finish;
+};
+
+// Object-level `photons { ... }`. PSR and PA of [LW10 Table 1], in sequence: specular with probability
+// specular_probability, else absorbed with absorption_probability, else diffuse. Unset: the finish decides.
+struct PhotonRoles {
+    std::optional<double> specular_probability, absorption_probability;
+    bool target = false, reflection = false, refraction = false, collect = true; // POV-Ray's words
+};
+
+// An `npr` word or block. Unset: the parent's word counts, and at the top level: off.
+struct PaintWord {
+    bool on = false;
+    PaintStyle style;
+};
+
+// One object statement: a shape, or a group of children (union). The parser applies transforms to everything already
+// said in the block, so every transform here maps straight to scene space, children's too.
+struct Object {
+    std::string name;                 // of the #declare it was made from; empty if none
+    SourceRef said_at;
+    std::optional<Shape> shape;       // none: a group
+    std::vector<Object> children;     // of a union, in the order of the text
+    Transform transform;              // shape's own space -> scene space
+    std::optional<Texture> texture;   // children without one use their parent's
+    std::optional<Interior> interior; // likewise
+    std::optional<PhotonRoles> photons;
+    std::optional<PaintWord> npr;
+    bool no_shadow = false, no_image = false, no_reflection = false, hollow = false, inverse = false;
+};
+
+// ---- lights ---------------------------------------------------------------------------------------------------
+
+enum class EmitterShape { sphere, hemisphere, disc, rectangle };
+
+// The area that emits: Lambertian, opaque and black (design.md section 3). The light's position is the centre.
+struct Emitter {
+    EmitterShape shape = EmitterShape::sphere;
+    double radius = 1;               // not for rectangle
+    Vec3 axis{0, -1, 0};             // hemisphere: it bulges this way; disc: it emits this way. Unit.
+    Vec3 u{1, 0, 0}, v{0, 0, 1};     // rectangle: full edges; it emits towards cross(u, v)
+    std::optional<double> radiance;  // W/(m^2 sr), one of the two, times the light's colour
+    std::optional<double> power;     // W
+};
+
+struct LightSource {
+    SourceRef said_at;
+    Vec3 position{0};
+    Color color{1};
+    bool spotlight = false, parallel = false, cylinder = false, shadowless = false;
+    Vec3 point_at{0, 0, 1};
+    double radius = 30, falloff = 45; // degrees from the axis: full inside the one, none beyond the other
+    double tightness = 0;
+    double fade_distance = 0, fade_power = 0;
+    std::optional<Emitter> emitter;
+    bool no_image = false;            // an emitter hidden from camera rays alone
+};
+
+struct Scene {
+    std::string file;                // as given on the command line; "default.pnr" for the embedded one
+    std::uint64_t hash = 0;          // of the text after expansion, with all included files
+    Camera camera;
+    bool has_camera = false;
+    std::vector<Object> objects;     // top-level statements, in the order of the text
+    std::vector<LightSource> lights;
+    Color background{0};
+    Color ambient_light{1};          // global_settings
+    bool radiosity = false;          // a `radiosity {}` block: indirect light is wanted
+    bool povray = false;             // a .pov file
+    PaintStyle paint_defaults;       // global_settings { npr { ... } }; already merged into every object's style
+};
+
+} // namespace pnr

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Every setting and its default, once. The parser and the command line fill these; the passes read them.
+#pragma once
+
+#include "core/types.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pnr {
+
+// How the light of a scene is computed (design: "Which light a scene gets").
+enum class Illumination {
+    raytraced,     // as POV-Ray would: direct light, ambient terms, no photons
+    caustics,      // the same plus a caustic map (`photons {}` alone)
+    photon_mapped, // direct light by shadow rays, everything indirect from the photon map; ambient terms are 0
+};
+
+struct PhotonSettings {
+    bool wanted = false;             // a `photons {}` block stands in global_settings
+    std::optional<bool> global;      // `global on | off`; unset: decided by the scene
+    bool count_given = false;        // the author said `count` or `spacing`
+    std::int64_t count = 200000;     // photons emitted in a pass, over all lights
+    double spacing = 0;              // instead of count: mean distance of photons on the scene's surface; 0: not used
+    int gather_min = 20;             // POV-Ray's word: where the radius holds fewer photons it is widened, twice at most
+    int gather_max = 100;            // the nearest so many are gathered
+    double radius = 0;               // largest gather radius in scene units; 0: from the scene and the count
+};
+
+enum class Quality { draft, normal, high };
+enum class Integrator { photons, path };
+enum class View { clip, shoulder };
+
+struct RenderSettings {
+    int width = 0, height = 0;       // pixels; 0: from the camera, 512 high rule of the command line
+    std::uint64_t seed = 1;
+    int samples_min = 4;             // rays a pixel at first ...
+    int samples_max = 16;            // ... and where neighbours differ by more than `contrast`
+    double contrast = 0.04;          // relative difference that asks for more samples
+    int max_trace_level = 10;        // specular chain length; POV-Ray scenes (`.pov`) get 5
+    double adc_bailout = 1.0 / 255;  // a chain of smaller weight than this is given up
+    int shadow_samples = 16;         // shadow rays to each area emitter, over a pixel's samples together at least
+    Quality quality = Quality::normal;
+    Integrator integrator = Integrator::photons;
+    View view = View::clip;
+    double exposure = 0;             // stops, for PNG alone
+    bool prune = true;               // --no-prune: take the unpruned path everywhere
+};
+
+// ---- painting -------------------------------------------------------------------------------------------------
+
+enum class RbfKernel { linear, biharmonic, triharmonic, gaussian }; // r, r (3D biharmonic [Carr 2001]), r^3, exp(-(r/c)^2)
+enum class FieldSource { seeds, curvature_min, curvature_max, along, around, light, gradient };
+enum class Fill { nearest, random };
+
+// One `seed { <position>, <direction> [weight w] }`, in scene space once the object's transforms are applied.
+struct Seed {
+    Vec3 position{0};
+    Vec3 direction{1, 0, 0};
+    double weight = 1;
+    SourceRef said_at;
+};
+
+// All that `npr { ... }` can say, with the defaults of design.md section 3. Lengths are in pixels of a picture 512 high
+// and scale with the height.
+struct PaintStyle {
+    std::vector<Seed> seeds;
+    RbfKernel kernel = RbfKernel::biharmonic;
+    double smooth = 0;               // added to the RBF matrix' diagonal, relative to its mean off-diagonal entry
+    int neighbours = 0;              // 0: all seeds; n: the n nearest
+    FieldSource field = FieldSource::seeds; // without seeds: curvature_min
+    Vec3 field_vector{0, 1, 0};      // `along`: the vector; `around`: the axis
+    Vec3 field_point{0};             // `around`: a point of the axis
+    double field_weight = 0;         // share of the field beside seeds in the blend; 0: one alone
+    double radius = 5;               // of the informative map's disc
+    Fill fill = Fill::nearest;
+    double length = 26;              // of the whole ILIC path, both sides
+    double cell = 4.5;               // width of a noise cell
+    double noise_lightness = 0.035;  // standard deviations of the result, Oklab L ...
+    double noise_chroma = 0.025;     // ... and a, b
+    double edge = 40;                // 0: the paper's mean; 40: one cell wins the path
+    double gaussian_first = 15, gaussian_second = 7; // windows of the field's smoothing
+    double step = 0.5;               // of the path, in pixels
+    double mix = 1;                  // 0 photoreal .. 1 painted
+    bool box_weights = false;        // paper_mode: box instead of Hann
+    bool vectors = false;            // paper_mode: blend plain vectors, not axes
+    bool paper_mode = false;         // [LW10] to the letter
+};
+
+// The style that `paper_mode on` starts from.
+PaintStyle paper_style();
+// The style an npr object without any word gets; without seeds (a curvature field) the windows are wider.
+PaintStyle default_style();
+
+struct Settings {
+    RenderSettings render;
+    PhotonSettings photons;
+};
+
+} // namespace pnr

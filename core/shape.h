@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The closed set of shapes, each in its own space, as POV-Ray defines them.
+//
+// To add one: create its struct, add it to `Shape`, give its bounds and its intersection in shape.cpp, read it in the
+// parser's table of objects, write its line into grammar/pnr.ebnf.
+#pragma once
+
+#include "core/types.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace pnr {
+
+struct Sphere {
+    Vec3 center{0};
+    double radius = 1;
+};
+struct Box {
+    Vec3 low{0}, high{1};
+};
+struct Plane { // dot(normal, p) = distance; normal is unit; inside is the side against the normal
+    Vec3 normal{0, 1, 0};
+    double distance = 0;
+};
+struct Cylinder {
+    Vec3 base{0}, cap{0, 1, 0};
+    double radius = 1;
+    bool open = false;
+};
+struct Cone {
+    Vec3 base{0}, cap{0, 1, 0};
+    double base_radius = 1, cap_radius = 0;
+    bool open = false;
+};
+struct Torus { // about the y axis through the origin
+    double major = 1, minor = 0.25;
+};
+struct Disc {
+    Vec3 center{0};
+    Vec3 normal{0, 1, 0}; // unit
+    double radius = 1, hole = 0;
+};
+
+// Triangles with shared vertices. `triangles` indexes positions; normals and uvs have their own index lists (empty: flat,
+// no uv), each as long as `triangles` when present.
+struct MeshData {
+    std::vector<Vec3f> positions;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<Vec3f> normals;
+    std::vector<std::array<std::uint32_t, 3>> normal_triangles;
+    std::vector<Vec2f> uvs;
+    std::vector<std::array<std::uint32_t, 3>> uv_triangles;
+};
+// triangle, mesh, mesh2, and `mesh { file }`: the file is named here and read by build_world.
+struct Mesh {
+    std::shared_ptr<const MeshData> data; // shared by copies; null until a file is read
+    std::string file;                     // resolved path; empty if data came from the text
+    bool smooth = false;                  // area-weighted vertex normals
+    SourceRef said_at;
+};
+struct BicubicPatch { // points[row * 4 + column]; flattened to triangles by u_steps and v_steps, smooth normals
+    std::array<Vec3, 16> points{};
+    int u_steps = 4, v_steps = 4; // as POV-Ray: the patch is cut into 2^u_steps by 2^v_steps
+    double flatness = 0;
+};
+
+using Shape = std::variant<Sphere, Box, Plane, Cylinder, Cone, Torus, Disc, Mesh, BicubicPatch>;
+
+// In the shape's own space; infinite for unbounded shapes.
+Bounds shape_bounds(const Shape& shape);
+const char* shape_name(const Shape& shape); // POV-Ray's word
+
+// A hit in the shape's own space. `normal` points to the outside as modelled (for a mesh: by the winding), not unit.
+struct ShapeHit {
+    double t = infinity;
+    Vec3 normal{0};
+    Vec2 uv{0};
+};
+// All hits of an analytic shape with t_min < t < t_max, in increasing t; at most 4. Computed in double, roots polished so
+// that |f(p)| at the hit is at rounding level. Mesh and BicubicPatch are not handled here (they live in the BVH): 0 hits.
+int intersect_shape(const Shape& shape, const Ray& ray, std::array<ShapeHit, 4>& hits);
+
+} // namespace pnr

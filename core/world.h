@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What rays meet: the scene flattened, moved so that its centre is the origin (`world = scene - offset`), with its meshes
+// read and its BVH built. Immutable once built; every pass takes it by const reference.
+#pragma once
+
+#include "core/camera.h"
+#include "core/light.h"
+#include "core/parallel.h"
+#include "core/scene.h"
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pnr {
+
+struct Geometry; // BVH, triangles, analytic shapes: geometry.h
+
+// How a surface answers to light. One for each textured leaf; index 0 is POV-Ray's default (black).
+struct Material {
+    Pigment pigment; // transform: pattern space -> world space
+    Finish finish;
+    Interior interior;
+    PhotonRoles photons;
+};
+
+// What the scene calls an object; the index into World::objects is its number (design.md section 5): top-level
+// statements from 1 in the order of the text; inside a union a child with its own `npr` word is an object of its own,
+// numbered where it stands after its parent. [0] is "nothing".
+struct WorldObject {
+    std::string name;  // declared name, or the shape's word
+    SourceRef said_at;
+    bool npr = false;
+    PaintStyle paint;  // seeds in world space; directions as said
+    Bounds bounds;     // world space
+};
+
+// One leaf's non-geometric side; Hit::surface indexes World::surfaces.
+struct Surface {
+    int object = 0;
+    int material = 0;
+    int light = -1;    // >= 0: this is the emitter of that light
+    bool no_shadow = false, no_image = false, no_reflection = false;
+};
+
+struct World {
+    Vec3 offset{0};    // scene = world + offset
+    double radius = 1; // of a sphere about the origin that holds all bounded shapes and lights; > 0
+    Camera camera;     // world space
+    std::vector<WorldObject> objects;
+    std::vector<Material> materials;
+    std::vector<Surface> surfaces;
+    std::vector<Light> lights; // world space; emitters have their radiance resolved
+    Color background{0};
+    Color ambient_light{1};
+    Illumination illumination = Illumination::raytraced;
+    bool has_specular = false; // some surface reflects or refracts
+    bool has_paint = false;    // some object is painted
+    std::shared_ptr<const Geometry> geometry;
+    std::vector<std::string> notes; // what was done to meshes and the like, for stats and the terminal
+};
+
+// Reads mesh files and pictures, flattens, builds the BVH. Throws SceneError for what cannot be built (an unreadable or
+// broken mesh, a non-finite coordinate) and FileError for files that cannot be opened.
+World build_world(const Scene& scene, const Settings& settings);
+
+// ---- rays -----------------------------------------------------------------------------------------------------
+
+// Which flags hide a surface from a ray.
+enum class RayKind { camera, specular, shadow, photon };
+
+struct Hit {
+    double t = infinity;   // in units of the ray's direction
+    Vec3 position{0};      // on the surface, refined; within `error` of it
+    Vec3 normal{0};        // geometric, unit, to the outside as modelled: flip it to face the viewer
+    Vec3 shading_normal{0};// unit, same side as normal; differs on smooth meshes
+    Vec2 uv{0};
+    std::uint32_t surface = 0;   // index into World::surfaces
+    std::uint32_t primitive = 0; // stable number of the primitive (mesh triangles count apart), for equality tests
+    double error = 0;      // bound on the distance of position to the true surface, world units
+};
+
+std::optional<Hit> closest_hit(const World& world, const Ray& ray, RayKind kind);
+// Whether anything lies in (t_min, t_max).
+bool is_occluded(const World& world, const Ray& ray, RayKind kind);
+
+// The ray that leaves a hit towards `direction` (unit): its origin is moved off the surface to the direction's side by the
+// hit's error bound, never by a loose constant.
+Ray leave(const Hit& hit, Vec3 direction, double t_max = infinity);
+// The segment from a hit to a point, for shadow rays: ends short of the point by its error.
+Ray connect(const Hit& hit, Vec3 point, double point_error = 0);
+
+} // namespace pnr

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "npr/maps.h"
+
+namespace pnr {
+
+Vec2f axis_direction(Vec2f axis) {
+    const float angle = 0.5f * std::atan2(axis.y, axis.x); // in [-pi/2, pi/2]
+    Vec2f d(std::cos(angle), std::sin(angle));
+    if (d.x < 1e-7f) d = {0, 1}; // both ends of the range are the vertical axis
+    return d;
+}
+
+Vec2f direction_axis(Vec2f d) {
+    const float length2 = glm::dot(d, d);
+    if (!(length2 > 0)) return {0, 0};
+    return Vec2f(d.x * d.x - d.y * d.y, 2 * d.x * d.y) / length2;
+}
+
+} // namespace pnr

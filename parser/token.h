@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tokens: made once per file by the lexer, replayed by the expander.
+#pragma once
+
+#include "parser/source.h"
+
+#include <cstdint>
+
+namespace pnr {
+
+// An interned word. Keywords come first (keywords.h), identifiers after them.
+using Symbol = std::uint32_t;
+
+enum class TokenKind : std::uint8_t {
+    end,         // of the input
+    number,      // value
+    string,      // text: index into the lexer's string table
+    word,        // symbol: keyword or identifier
+    directive,   // `#name`; symbol is the name's keyword. Never leaves the expander.
+    punctuation, // symbol holds the character, or two of them (first | second << 8) for <= >= !=
+};
+
+struct Token {
+    TokenKind kind = TokenKind::end;
+    Symbol symbol = 0;
+    double value = 0;
+    Span span;
+    std::uint32_t chain = 0; // the macro calls and includes it came through: index into the expander's table; 0: none
+};
+
+} // namespace pnr

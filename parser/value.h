@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What an identifier can stand for.
+#pragma once
+
+#include "core/scene.h"
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace pnr {
+
+// POV-Ray's vectors and colours are one thing in expressions: 2 to 5 numbers. A colour is <r, g, b, filter, transmit>.
+struct VectorValue {
+    double v[5] = {0, 0, 0, 0, 0};
+    int size = 3;
+    bool is_color = false; // made by a colour expression
+};
+
+struct Value;
+struct ArrayValue { // fixed size, possibly nested; elements may be unset (index() == 0)
+    std::vector<int> dimensions;
+    std::vector<Value> elements;
+};
+
+// Blocks that can be declared; copied on use, heavy data (meshes) is shared inside.
+using DeclaredBlock = std::variant<Object, Texture, Pigment, Finish, Interior, LightSource, Camera, Transform, PaintWord, PaintStyle>;
+
+struct Value {
+    std::variant<std::monostate, double, VectorValue, std::string, std::shared_ptr<ArrayValue>,
+                 std::shared_ptr<const DeclaredBlock>>
+        data;
+};
+
+const char* type_name(const Value& value); // "number", "vector", "colour", "string", "array", "object", "texture" ...
+
+} // namespace pnr
