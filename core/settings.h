@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pnr {
@@ -15,18 +16,19 @@ namespace pnr {
 enum class Illumination {
     raytraced,     // as POV-Ray would: direct light, ambient terms, no photons
     caustics,      // the same plus a caustic map (`photons {}` alone)
-    photon_mapped, // direct light by shadow rays, everything indirect from the photon map; ambient terms are 0
+    photon_mapped, // direct light by shadow rays, everything indirect from the photon map; ambient terms are
+                   // 0
 };
 
 struct PhotonSettings {
-    bool wanted = false;             // a `photons {}` block stands in global_settings
-    std::optional<bool> global;      // `global on | off`; unset: decided by the scene
-    bool count_given = false;        // the author said `count` or `spacing`
-    std::int64_t count = 200000;     // photons emitted in a pass, over all lights
-    double spacing = 0;              // instead of count: mean distance of photons on the scene's surface; 0: not used
-    int gather_min = 20;             // POV-Ray's word: where the radius holds fewer photons it is widened, twice at most
-    int gather_max = 100;            // the nearest so many are gathered
-    double radius = 0;               // largest gather radius in scene units; 0: from the scene and the count
+    bool wanted = false;         // a `photons {}` block stands in global_settings
+    std::optional<bool> global;  // `global on | off`; unset: decided by the scene
+    bool count_given = false;    // the author said `count` or `spacing`
+    std::int64_t count = 200000; // photons emitted in a pass, over all lights
+    double spacing = 0;   // instead of count: mean distance of photons on the scene's surface; 0: not used
+    int gather_min = 20;  // POV-Ray's word: where the radius holds fewer photons it is widened, twice at most
+    int gather_max = 100; // the nearest so many are gathered
+    double radius = 0;    // largest gather radius in scene units; 0: from the scene and the count
 };
 
 enum class Quality { draft, normal, high };
@@ -34,24 +36,27 @@ enum class Integrator { photons, path };
 enum class View { clip, shoulder };
 
 struct RenderSettings {
-    int width = 0, height = 0;       // pixels; 0: from the camera, 512 high rule of the command line
+    int width = 0, height = 0; // pixels; 0: from the camera, 512 high rule of the command line
     std::uint64_t seed = 1;
-    int samples_min = 4;             // rays a pixel at first ...
-    int samples_max = 16;            // ... and where neighbours differ by more than `contrast`
-    double contrast = 0.04;          // relative difference that asks for more samples
-    int max_trace_level = 10;        // specular chain length; POV-Ray scenes (`.pov`) get 5
-    double adc_bailout = 1.0 / 255;  // a chain of smaller weight than this is given up
-    int shadow_samples = 16;         // shadow rays to each area emitter, over a pixel's samples together at least
+    int samples_min = 4;            // rays a pixel at first ...
+    int samples_max = 16;           // ... and where neighbours differ by more than `contrast`
+    double contrast = 0.04;         // relative difference that asks for more samples
+    int max_trace_level = 10;       // specular chain length; POV-Ray scenes (`.pov`) get 5
+    double adc_bailout = 1.0 / 255; // a chain of smaller weight than this is given up
+    int shadow_samples = 16; // shadow rays to each area emitter, over a pixel's samples together at least
     Quality quality = Quality::normal;
     Integrator integrator = Integrator::photons;
     View view = View::clip;
-    double exposure = 0;             // stops, for PNG alone
-    bool prune = true;               // --no-prune: take the unpruned path everywhere
+    double exposure = 0; // stops, for PNG alone
+    bool prune = true;   // --no-prune: take the unpruned path everywhere
 };
 
-// ---- painting -------------------------------------------------------------------------------------------------
+// ---- painting
+// -------------------------------------------------------------------------------------------------
 
-enum class RbfKernel { linear, biharmonic, triharmonic, gaussian }; // r, r (3D biharmonic [Carr 2001]), r^3, exp(-(r/c)^2)
+// r, r^3, exp(-(r/c)^2). In space r is itself the biharmonic function [Carr 2001], so the word `linear` means
+// biharmonic too.
+enum class RbfKernel { biharmonic, triharmonic, gaussian };
 enum class FieldSource { seeds, curvature_min, curvature_max, along, around, light, gradient };
 enum class Fill { nearest, random };
 
@@ -63,31 +68,68 @@ struct Seed {
     SourceRef said_at;
 };
 
-// All that `npr { ... }` can say, with the defaults of design.md section 3. Lengths are in pixels of a picture 512 high
-// and scale with the height.
+// One coat of strokes, `layer { length l  cell c  noise l, ab  edge e  opacity o  blur b  keep k [, detail d]
+// }` inside `ilic`. Coats are painted in the order of the text, each over the ones before.
+struct PaintLayer {
+    double length = 26;             // of the whole ILIC path, both sides
+    double cell = 4.5;              // width of a noise cell
+    double noise_lightness = 0.035; // standard deviations of the result, Oklab L ...
+    double noise_chroma = 0.025;    // ... and a, b
+    double edge = 40;               // 0: the paper's mean; 40: one cell wins the path
+    double opacity = 1;             // of a stroke over the coats below
+    double blur = 0;                // the strokes' colours are first blurred by this standard deviation
+    double keep = 0;                // this share of the strokes is left out everywhere ...
+    double keep_plain = 0; // ... and this share more where the picture is plain; none of it at silhouettes
+                           // and lightness edges
+};
+
+// All that `npr { ... }` can say, with the defaults of design.md section 3. Lengths are in pixels of a
+// picture 512 high and scale with the height.
 struct PaintStyle {
     std::vector<Seed> seeds;
     RbfKernel kernel = RbfKernel::biharmonic;
-    double smooth = 0;               // added to the RBF matrix' diagonal, relative to its mean off-diagonal entry
-    int neighbours = 0;              // 0: all seeds; n: the n nearest
+    double smooth = 0;  // added to the RBF matrix' diagonal, relative to its mean off-diagonal entry
+    int neighbours = 0; // 0: all seeds; n: the n nearest
     FieldSource field = FieldSource::seeds; // without seeds: curvature_min
-    Vec3 field_vector{0, 1, 0};      // `along`: the vector; `around`: the axis
-    Vec3 field_point{0};             // `around`: a point of the axis
-    double field_weight = 0;         // share of the field beside seeds in the blend; 0: one alone
-    double radius = 5;               // of the informative map's disc
+    Vec3 field_vector{0, 1, 0};             // `along`: the vector; `around`: the axis
+    Vec3 field_point{0};                    // `around`: a point of the axis
+    double field_weight = 0;                // share of the field beside seeds in the blend; 0: one alone
+    double radius = 5;                      // of the informative map's disc
     Fill fill = Fill::nearest;
-    double length = 26;              // of the whole ILIC path, both sides
-    double cell = 4.5;               // width of a noise cell
-    double noise_lightness = 0.035;  // standard deviations of the result, Oklab L ...
-    double noise_chroma = 0.025;     // ... and a, b
-    double edge = 40;                // 0: the paper's mean; 40: one cell wins the path
-    double gaussian_first = 15, gaussian_second = 7; // windows of the field's smoothing
-    double step = 0.5;               // of the path, in pixels
-    double mix = 1;                  // 0 photoreal .. 1 painted
-    bool box_weights = false;        // paper_mode: box instead of Hann
-    bool vectors = false;            // paper_mode: blend plain vectors, not axes
-    bool paper_mode = false;         // [LW10] to the letter
+    double length = 26;             // of the whole ILIC path, both sides
+    double cell = 4.5;              // width of a noise cell
+    double noise_lightness = 0.035; // standard deviations of the result, Oklab L ...
+    double noise_chroma = 0.025;    // ... and a, b
+    double edge = 40;               // 0: the paper's mean; 40: one cell wins the path
+    std::vector<PaintLayer> layers; // `layer { ... }` items; empty: one coat of the five values above
+    double contrast =
+        1; // `tone { contrast c  saturation s  warm w }`: Oklab lightness about the object's median,
+    double saturation = 1; // chroma,
+    double warm = 0;       // and how far lights go to yellow and shadows to blue: all before the painting
+    double relief = 0;     // `relief h [, b]`: strokes lit as ridges of paint from the top left,
+    double bristle = 0;    // and the lightness of bristle marks along them
+    double bleed = 0;      // `bleed b`: how far strokes reach over the silhouette
+    std::optional<double> gaussian_first,
+        gaussian_second;      // windows of the field's smoothing; unset: field_windows()
+    double step = 0.5;        // of the path, in pixels
+    double mix = 1;           // 0 photoreal .. 1 painted
+    bool box_weights = false; // paper_mode: box instead of Hann
+    bool vectors = false;     // paper_mode: blend plain vectors, not axes
+    bool paper_mode = false;  // [LW10] to the letter
 };
+
+// `style WORD`: sets how paint is laid (length to gaussian above, layers, tone, relief) to the named style's
+// and leaves seeds, field, radius, fill and mix alone. False, and nothing changed, for an unknown word.
+//   ilic     one coat, the default          oil      three coats, contrasts, relief: the fullest
+//   impasto  broad, thick strokes           pastel   soft short strokes on soft ones
+//   fur      long and thin                  wash     the paper's mean with restored noise: soft and wet
+bool set_style(PaintStyle& style, std::string_view word);
+std::vector<std::string> style_words();
+// The field an object is painted along: what was said, or curvature_min where neither seeds nor a field were.
+FieldSource painted_field(const PaintStyle& style);
+// The two smoothing windows, in pixels at 512: as said, or 15, 7 along seeds and given axes, and 31, 15 along
+// curvature.
+Vec2 field_windows(const PaintStyle& style);
 
 // The style that `paper_mode on` starts from.
 PaintStyle paper_style();
