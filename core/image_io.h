@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pictures on disk. The image library (OpenImageIO, 260 shared libraries, 0.4 s) lives in a module of its own that is
-// opened when the first picture is read or written, so that commands that touch none do not pay for it.
+// Pictures on disk. The image library (OpenImageIO, 260 shared libraries, 0.4 s) lives in a module of its own
+// that is opened when the first picture is read or written, so that commands that touch none do not pay for
+// it.
 #pragma once
 
 #include "core/image.h"
@@ -14,35 +15,42 @@ namespace pnr {
 
 // One part of an EXR: `channels` planes of width * height floats, interleaved, named.
 struct ImagePart {
-    std::string name;                        // part name; "" for a single-part file
-    std::vector<std::string> channel_names;  // e.g. R G B A, N.X N.Y N.Z
-    std::vector<float> data;                 // rows from the top, channels interleaved; covers `data_window`
-    bool half = false;                       // store as half instead of float32
+    std::string name;                       // part name; "" for a single-part file
+    std::vector<std::string> channel_names; // e.g. R G B A, N.X N.Y N.Z
+    std::vector<float> data;                // rows from the top, channels interleaved; covers `data_window`
+    bool half = false;                      // store as half instead of float32
 };
 struct ImageFile {
-    int width = 0, height = 0;               // the displayWindow
-    PixelRect data_window;                   // pixels in `data`; the whole picture when x1 == 0
+    int width = 0, height = 0; // the displayWindow
+    PixelRect data_window;     // pixels in `data`; the whole picture when x1 == 0
     std::vector<ImagePart> parts;
     std::vector<std::pair<std::string, std::string>> metadata; // strings
 };
 
-// All write functions write a temporary file beside the target, then rename it: files appear whole or not at all.
-// They throw FileError with the reason.
+// All write functions write whole files or none (atomic_file.h) and throw FileError with the reason. Colour
+// parts say that their primaries are Rec.709's.
 void write_exr(const std::filesystem::path& file, const ImageFile& image);
-// 8 bits sRGB transfer, clipped to [0, 1] after `exposure` stops; no dithering. `alpha` may be empty.
+// 8 bits, sRGB transfer, clipped to [0, 1]; no dithering; not a number is black. Exposure and shoulder are
+// the caller's. `alpha` may be empty: then the file has none. With alpha, `linear` is premultiplied by it.
 void write_png(const std::filesystem::path& file, const Image<Color>& linear, const Image<float>& alpha,
                const std::vector<std::pair<std::string, std::string>>& metadata);
 
-// Reads any picture as linear Rec.709 with alpha: 8-bit and 16-bit integer files are taken as sRGB, float ones as linear.
-// Throws FileError.
+// Reads any picture as linear Rec.709 with alpha: 8-bit and 16-bit integer files are taken as sRGB, float
+// ones as linear. Throws FileError.
 Image<glm::vec4> read_image(const std::filesystem::path& file);
-// Reads a multi-channel float picture (EXR) as it is, first part only.
+// The bytes of such files, for writing to standard output.
+std::vector<unsigned char> encode_exr(const ImageFile& image);
+std::vector<unsigned char> encode_png(const Image<Color>& linear, const Image<float>& alpha,
+                                      const std::vector<std::pair<std::string, std::string>>& metadata);
+
+// Reads a picture of many channels (EXR) as it is: every part that has the first one's size.
 ImageFile read_exr(const std::filesystem::path& file);
 
 // sRGB transfer of a linear value in [0, 1] and back (IEC 61966-2-1).
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
-// The soft shoulder of `view shoulder`, on the largest channel from 0.45 (look.md).
+// The soft shoulder of `view shoulder`: up to 0.45 nothing changes, above it the largest channel m becomes
+// 1 - 0.55 exp(-(m - 0.45) / 0.55), which never reaches 1; the hue is kept.
 Color shoulder(Color linear);
 
 } // namespace pnr

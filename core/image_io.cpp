@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/image_io.h"
+
+#include "core/atomic_file.h"
+#include "core/image_module.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <dlfcn.h>
+
+namespace pnr {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Where the module may lie, first choice first: the environment's word alone if it is there, else beside the
+// program in a build folder or an installation.
+std::vector<fs::path> module_places() {
+    if (const char* named = std::getenv("PNR_IMAGE_MODULE")) return {named};
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    if (error) return {"libpnr_image.so"};
+    const fs::path root = program.parent_path().parent_path();
+    return {root / "lib" / "libpnr_image.so", root / "lib" / "pnr" / "libpnr_image.so"};
+}
+
+const ImageModule& open_module() {
+    std::string reasons;
+    for (const fs::path& place : module_places()) {
+        void* library = ::dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
+        if (library == nullptr) {
+            reasons += std::string("\n  ") + ::dlerror();
+            continue;
+        }
+        const auto get = reinterpret_cast<const ImageModule* (*)()>(::dlsym(library, image_module_symbol));
+        if (get != nullptr && get()->version == image_module_version) return *get();
+        reasons += "\n  " + place.string() + ": of another version of pnr";
+    }
+    throw FileError("cannot open the image module (PNR_IMAGE_MODULE can name it):" + reasons);
+}
+
+// Opened at the first picture and kept: the image library must not be unloaded under its own threads. After a
+// failure the next picture tries again.
+const ImageModule& image_module() {
+    static const ImageModule& module = open_module();
+    return module;
+}
+
+std::uint8_t to_byte(float value) { return static_cast<std::uint8_t>(std::lround(255.0f * value)); }
+float clip(float value) { return value > 0 ? (value < 1 ? value : 1.0f) : 0.0f; } // not a number: 0
+
+void check_sizes(const ImageFile& image) {
+    const PixelRect& w = image.data_window;
+    const bool whole = w.x1 == 0;
+    const auto width = static_cast<std::size_t>(whole ? image.width : w.x1 - w.x0);
+    const auto height = static_cast<std::size_t>(whole ? image.height : w.y1 - w.y0);
+    if (image.parts.empty()) throw std::invalid_argument("write_exr: no part");
+    for (const ImagePart& part : image.parts)
+        if (part.channel_names.empty() || part.data.size() != width * height * part.channel_names.size())
+            throw std::invalid_argument("write_exr: part `" + part.name + "` does not fill its window");
+}
+
+DecodedPicture decode(const fs::path& file) {
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    const auto refuse = [&](const std::string& why) {
+        throw FileError("cannot read the picture `" + file.string() + "`: " + why);
+    };
+    if (!fs::exists(status)) refuse("no such file");
+    if (fs::is_directory(status)) refuse("it is a folder");
+    DecodedPicture picture;
+    const std::string why = image_module().decode(file.string(), picture);
+    if (!why.empty()) refuse(why);
+    if (picture.image.parts.empty()) refuse("it is empty");
+    return picture;
+}
+
+int channel(const ImagePart& part, const char* name, int otherwise) {
+    for (std::size_t i = 0; i < part.channel_names.size(); ++i)
+        if (part.channel_names[i] == name) return static_cast<int>(i);
+    return otherwise;
+}
+
+} // namespace
+
+std::vector<unsigned char> encode_exr(const ImageFile& image) {
+    check_sizes(image);
+    std::vector<unsigned char> bytes;
+    const std::string why = image_module().encode_exr(image, bytes);
+    if (!why.empty()) throw FileError("cannot make an EXR picture: " + why);
+    return bytes;
+}
+
+std::vector<unsigned char> encode_png(const Image<Color>& linear, const Image<float>& alpha,
+                                      const std::vector<std::pair<std::string, std::string>>& metadata) {
+    BytePicture picture{linear.width, linear.height, alpha.empty() ? 3 : 4, {}, metadata};
+    picture.bytes.reserve(linear.pixels.size() * static_cast<std::size_t>(picture.channels));
+    for (std::size_t i = 0; i < linear.pixels.size(); ++i) {
+        const float a = alpha.empty() ? 1.0f : clip(alpha.pixels[i]);
+        const Color c = a > 0 ? linear.pixels[i] / a : Color(0);
+        for (int k = 0; k < 3; ++k) picture.bytes.push_back(to_byte(srgb_encode(clip(c[k]))));
+        if (!alpha.empty()) picture.bytes.push_back(to_byte(a));
+    }
+    std::vector<unsigned char> bytes;
+    const std::string why = image_module().encode_png(picture, bytes);
+    if (!why.empty()) throw FileError("cannot make a PNG picture: " + why);
+    return bytes;
+}
+
+void write_exr(const fs::path& file, const ImageFile& image) {
+    write_file_atomically(file, encode_exr(image));
+}
+
+void write_png(const fs::path& file, const Image<Color>& linear, const Image<float>& alpha,
+               const std::vector<std::pair<std::string, std::string>>& metadata) {
+    write_file_atomically(file, encode_png(linear, alpha, metadata));
+}
+
+Image<glm::vec4> read_image(const fs::path& file) {
+    const DecodedPicture decoded = decode(file);
+    const ImagePart& part = decoded.image.parts.front();
+    const PixelRect& window = decoded.image.data_window;
+    Image<glm::vec4> image(window.x1 - window.x0, window.y1 - window.y0);
+    const int count = static_cast<int>(part.channel_names.size());
+    const int r = channel(part, "R", 0);
+    const int g = channel(part, "G", count >= 3 ? 1 : r);
+    const int b = channel(part, "B", count >= 3 ? 2 : r);
+    const int a = channel(part, "A", -1);
+    const auto linear = [&](float value) { return decoded.is_integer ? srgb_decode(value) : value; };
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const float* pixel = part.data.data() + i * static_cast<std::size_t>(count);
+        image.pixels[i] = {linear(pixel[r]), linear(pixel[g]), linear(pixel[b]), a < 0 ? 1.0f : pixel[a]};
+    }
+    return image;
+}
+
+ImageFile read_exr(const fs::path& file) { return decode(file).image; }
+
+float srgb_encode(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
+}
+float srgb_decode(float encoded) {
+    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+Color shoulder(Color linear) {
+    constexpr float start = 0.45f;
+    const float m = max_component(linear);
+    if (!(m > start)) return linear;
+    return linear * ((1 - (1 - start) * std::exp(-(m - start) / (1 - start))) / m);
+}
+
+} // namespace pnr

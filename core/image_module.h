@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What image_io.cpp and the image module (image_module.cpp, a library of its own) say to one another. Only
+// these three functions cross the border; files are written by image_io.cpp.
+#pragma once
+
+#include "core/image_io.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pnr {
+
+// 8-bit picture: `channels` (3 or 4) interleaved bytes, sRGB transfer already applied, alpha not associated.
+struct BytePicture {
+    int width = 0, height = 0, channels = 3;
+    std::vector<std::uint8_t> bytes;
+    std::vector<std::pair<std::string, std::string>> metadata;
+};
+
+// Any picture as it lies in the file. `is_integer`: its values are integers scaled to [0, 1], else floats.
+struct DecodedPicture {
+    ImageFile image;
+    bool is_integer = false;
+};
+
+// Each returns the reason why it failed, or "".
+struct ImageModule {
+    int version = 0; // image_module_version, else the library is of another build
+    std::string (*encode_exr)(const ImageFile& image, std::vector<unsigned char>& file) = nullptr;
+    std::string (*encode_png)(const BytePicture& picture, std::vector<unsigned char>& file) = nullptr;
+    std::string (*decode)(const std::string& path, DecodedPicture& picture) = nullptr;
+};
+inline constexpr int image_module_version = 1;
+inline constexpr const char* image_module_symbol = "pnr_image_module"; // extern "C" const ImageModule*()
+
+} // namespace pnr
