@@ -9,6 +9,7 @@
 #include "core/shape.h"
 #include "core/types.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -55,10 +56,14 @@ struct PhotonRoles {
     bool target = false, reflection = false, refraction = false, collect = true; // POV-Ray's words
 };
 
-// An `npr` word or block. Unset: the parent's word counts, and at the top level: off.
+// An `npr` word or block. Unset: the parent's word counts, and at the top level: off. The parser fills `style` when the
+// whole text is read: the base (default_style or paper_style), then what global_settings said, then what the block said.
 struct PaintWord {
     bool on = false;
     PaintStyle style;
+    std::optional<bool> paper_mode;                   // said here
+    std::vector<std::function<void(PaintStyle&)>> said; // the block's items, in order; seeds stand in `style` itself
+    bool own_axis = false;                            // `field along | around` was said here: its vectors stand in `style`
 };
 
 // One object statement: a shape, or a group of children (union). The parser applies transforms to everything already
@@ -114,6 +119,9 @@ struct Scene {
     Color ambient_light{1};          // global_settings
     bool radiosity = false;          // a `radiosity {}` block: indirect light is wanted
     bool povray = false;             // a .pov file
+    // What a value v of the finished picture means: linear light v^assumed_gamma, or, if 0, v through the sRGB curve. Applied
+    // by whoever writes the picture; 1 but for POV-Ray scenes that say otherwise.
+    double assumed_gamma = 1;
     PaintStyle paint_defaults;       // global_settings { npr { ... } }; already merged into every object's style
 };
 

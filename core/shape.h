@@ -64,7 +64,9 @@ struct Mesh {
     bool smooth = false;                  // area-weighted vertex normals
     SourceRef said_at;
 };
-struct BicubicPatch { // points[row * 4 + column]; flattened to triangles by u_steps and v_steps, smooth normals
+// points[row * 4 + column]; flattened to triangles by u_steps and v_steps, smooth normals. The outside is the side of
+// cross(along a row, from row to row).
+struct BicubicPatch {
     std::array<Vec3, 16> points{};
     int u_steps = 4, v_steps = 4; // as POV-Ray: the patch is cut into 2^u_steps by 2^v_steps
     double flatness = 0;

@@ -27,6 +27,7 @@ struct Parser {
     Settings& settings;
     // #default { texture | pigment | finish | npr }: what new objects start from.
     Texture default_texture;
+    PaintWord paint_defaults; // global_settings { npr { ... } } and #default { npr { ... } }, merged at the end
 };
 
 // Thrown after an error was recorded, to unwind to the nearest place that can recover (a block's end).

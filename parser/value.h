@@ -5,6 +5,7 @@
 #include "core/scene.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -24,8 +25,23 @@ struct ArrayValue { // fixed size, possibly nested; elements may be unset (index
     std::vector<Value> elements;
 };
 
+// `color_map { [0 rgb 1] [1 rgb 0] }`, alone.
+struct ColorMap {
+    std::vector<ColorStop> stops;
+};
+// `material { texture {...} interior {...} }`
+struct SaidMaterial {
+    std::optional<Texture> texture;
+    std::optional<Interior> interior;
+};
+// A block of POV-Ray's that we know and lack (fog, normal, media ...): it can be declared and named, and means nothing.
+struct SkippedBlock {
+    std::string word;
+};
+
 // Blocks that can be declared; copied on use, heavy data (meshes) is shared inside.
-using DeclaredBlock = std::variant<Object, Texture, Pigment, Finish, Interior, LightSource, Camera, Transform, PaintWord, PaintStyle>;
+using DeclaredBlock = std::variant<Object, Texture, Pigment, Finish, Interior, LightSource, Camera, Transform, PaintWord,
+                                   ColorMap, SaidMaterial, SkippedBlock>;
 
 struct Value {
     std::variant<std::monostate, double, VectorValue, std::string, std::shared_ptr<ArrayValue>,
