@@ -43,7 +43,7 @@ Chain follow_chain(const World& world, const Ray& camera_ray, const RenderSettin
         const ChainBranch branch =
             level < settings.max_trace_level ? chain_branch(world, hit, chain.bsdf) : ChainBranch::none;
         if (branch == ChainBranch::none) return chain;
-        chain.weight *= branch == ChainBranch::mirror ? chain.bsdf.mirror : chain.bsdf.transmit;
+        chain.weight *= branch_weight(chain.bsdf, branch);
         if (max_component(chain.weight) < settings.adc_bailout) return chain;
         if (chain.steps.empty()) chain.via = static_cast<std::uint32_t>(world.surfaces[hit.surface].object);
         chain.steps.push_back({hit.surface, branch});
@@ -179,11 +179,6 @@ float supersample_coverage(const World& world, const PictureView& view, int x, i
     return static_cast<float>(painted) / static_cast<float>(samples);
 }
 
-PixelRect clip(PixelRect r, int width, int height) {
-    return {std::clamp(r.x0, 0, width), std::clamp(r.y0, 0, height), std::clamp(r.x1, 0, width),
-            std::clamp(r.y1, 0, height)};
-}
-
 // Calls body(y) for the rows of a rectangle on all cores, and tells the progress.
 template <class Body>
 void for_rows(PixelRect r, const Progress& progress, std::int64_t done_before, std::int64_t total,
@@ -227,6 +222,11 @@ Vec3 branch_direction(const Bsdf& bsdf, Vec3 outgoing, ChainBranch branch) {
     return direction;
 }
 
+Color branch_weight(const Bsdf& bsdf, ChainBranch branch) {
+    if (branch == ChainBranch::mirror) return bsdf.mirror;
+    return bsdf.transmit * static_cast<float>(bsdf.eta * bsdf.eta);
+}
+
 Color segment_transmittance(const World& world, const Hit& hit, const Bsdf& bsdf, double distance) {
     if (!bsdf.inside) return Color{1};
     const Material& material =
@@ -238,13 +238,13 @@ GBuffer make_gbuffer(const World& world, const PictureView& view, PixelRect wind
                      const RenderSettings& settings, const Progress& progress) {
     GBuffer result;
     result.view = view;
-    result.window = clip(window, view.width, view.height);
+    result.window = grow(window, 0, view.width, view.height);
     result.seen = Image<Seen>(view.width, view.height);
     result.coverage = Image<float>(view.width, view.height);
     // Coverage looks at the neighbours, so one more pixel is traced all round and cleared again.
     const PixelRect w = result.window;
-    if (w.x0 >= w.x1 || w.y0 >= w.y1) return result;
-    const PixelRect padded = clip({w.x0 - 1, w.y0 - 1, w.x1 + 1, w.y1 + 1}, view.width, view.height);
+    if (w.empty()) return result;
+    const PixelRect padded = grow(w, 1, view.width, view.height);
     const std::int64_t total = padded.y1 - padded.y0 + w.y1 - w.y0;
     for_rows(padded, progress, 0, total, [&](int y) {
         for (int x = padded.x0; x < padded.x1; ++x)
@@ -259,7 +259,7 @@ GBuffer make_gbuffer(const World& world, const PictureView& view, PixelRect wind
         });
     for (int y = padded.y0; y < padded.y1; ++y)
         for (int x = padded.x0; x < padded.x1; ++x)
-            if (x < w.x0 || x >= w.x1 || y < w.y0 || y >= w.y1) result.seen.at(x, y) = Seen{};
+            if (!w.contains(x, y)) result.seen.at(x, y) = Seen{};
     return result;
 }
 

@@ -52,6 +52,9 @@ double paint_mix(const World& world, const Hit& hit);
 // Direction a chain leaves the hit in; `branch` is not none. At total reflection `transmit` is never the
 // larger branch.
 Vec3 branch_direction(const Bsdf& bsdf, Vec3 outgoing, ChainBranch branch);
+// Share of the radiance from that direction that leaves the surface towards the viewer. Radiance is larger by
+// the square of the ratio in the denser medium [Veach 1997, 5.2]; on the way in and out again that cancels.
+Color branch_weight(const Bsdf& bsdf, ChainBranch branch);
 // What the medium leaves of light over the segment that found the hit (interiors absorb only inside).
 Color segment_transmittance(const World& world, const Hit& hit, const Bsdf& bsdf, double distance);
 

@@ -33,17 +33,23 @@ private:
 // Half-open pixel rectangle: x0 <= x < x1, y0 <= y < y1.
 struct PixelRect {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-};
 
-// What a pass contributes to the picture. Colours are radiance, premultiplied by the share of the pixel (and, seen
-// through mirrors or glass, by the chain's weight) that they stand for; alpha is that share's mean over RGB.
+    bool contains(int x, int y) const { return x >= x0 && y >= y0 && x < x1 && y < y1; }
+    bool empty() const { return x0 >= x1 || y0 >= y1; }
+};
+// A rectangle grown by `apron` pixels on each side, inside a picture of width x height.
+PixelRect grow(PixelRect rect, int apron, int width, int height);
+
+// What a pass contributes to the picture. Colours are radiance, premultiplied by the share of the pixel (and,
+// seen through mirrors or glass, by the chain's weight) that they stand for; alpha is that share's mean over
+// RGB.
 struct Layer {
     Image<Color> color;
     Image<float> alpha;
 };
 
 // The picture: each pass has left out what the other one gives, so premultiplied layers add up.
-// Both must have the same size.
+// Throws std::invalid_argument if their sizes differ; an empty layer counts as black.
 Image<Color> over(const Layer& painted, const Layer& photoreal);
 
 } // namespace pnr

@@ -9,7 +9,8 @@
 
 namespace pnr {
 
-// Per-pixel sample counts of what went wrong; reported, never hidden (design.md: "No NaN, no infinity reaches an image").
+// Per-pixel sample counts of what went wrong; reported, never hidden (design.md: "No NaN, no infinity reaches
+// an image").
 struct SampleFaults {
     std::int64_t nan = 0, inf = 0, negative = 0;
 };
@@ -28,10 +29,13 @@ struct RenderResult {
     std::int64_t camera_rays = 0, gathers = 0;
 };
 
-// Renders `window` of the picture. Pixels wholly painted (coverage 1, seen directly, mix 1) get no rays; of border pixels only
-// the share that is not painted is rendered; behind mirrors and glass the branch that leads to paint is left out.
-// `map` may be empty (raytraced scenes).
-RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap& map, const Settings& settings,
-                    PixelRect window, bool want_parts, const Progress& progress = {});
+// Renders `window` of the picture; `gbuffer` must hold it and one pixel more all round (image.h: grow). Its
+// pixels have the bits they have in the full picture. With Integrator::path every pixel gets samples_max
+// paths and the map is not looked at. Pixels wholly painted (coverage 1, seen directly, mix 1) get no rays;
+// of border pixels only the share that is not painted is rendered; behind mirrors and glass the branch that
+// leads to paint is left out. `map` may be empty (raytraced scenes).
+RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap& map,
+                    const Settings& settings, PixelRect window, bool want_parts,
+                    const Progress& progress = {});
 
 } // namespace pnr

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scenes without global photons look as POV-Ray would render them: its finish formulas, its tinted shadows,
+// its recursion.
+#pragma once
+
+#include "core/shade.h"
+
+namespace pnr {
+
+// Radiance against a camera ray by POV-Ray's formulas (ambient, diffuse with brilliance, phong, specular,
+// reflection, transparency); with a caustic map (`photons {}` alone) its light is added.
+Color povray_radiance(const Shading& shading, const Ray& camera_ray, SampleState& state);
+
+} // namespace pnr

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/render.h"
+
+#include "core/path_trace.h"
+#include "core/shade.h"
+
+#include <atomic>
+#include <mutex>
+
+namespace pnr {
+namespace {
+
+constexpr int tile = 16; // pixels; tiles lie on the picture's own grid
+
+// Sums over a pixel's samples. Samples whose chain leads to paint are kept apart, so that their share can be
+// the G-buffer's coverage and not another estimate of it.
+struct PixelSums {
+    struct Group {
+        Color radiance{0}, direct{0}, indirect{0}, caustic{0}, specular{0};
+        float alpha = 0;
+        int count = 0;
+    };
+    Group plain, painted;
+
+    int count() const { return plain.count + painted.count; }
+};
+
+struct Counts {
+    SampleFaults faults;
+    std::int64_t rays = 0, gathers = 0;
+};
+
+struct Job {
+    const Shading& shading;
+    const GBuffer& gbuffer;
+    const Settings& settings;
+    PixelRect window; // pixels with sums: the picture's window and an apron of one pixel
+    std::vector<PixelSums> sums;
+
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y - window.y0) * static_cast<std::size_t>(window.x1 - window.x0) +
+               static_cast<std::size_t>(x - window.x0);
+    }
+};
+
+std::uint64_t pixel_place(int x, int y) {
+    return static_cast<std::uint64_t>(static_cast<std::uint32_t>(y)) << 32 | static_cast<std::uint32_t>(x);
+}
+
+// Counts what is no number or less than nothing, and makes it 0.
+Color checked(Color c, SampleFaults& faults) {
+    bool nan = false, inf = false, negative = false;
+    for (int i = 0; i < 3; ++i) {
+        nan = nan || std::isnan(c[i]);
+        inf = inf || std::isinf(c[i]);
+        negative = negative || c[i] < 0;
+        if (!(c[i] >= 0) || std::isinf(c[i])) c[i] = 0;
+    }
+    faults.nan += nan;
+    faults.inf += inf;
+    faults.negative += negative;
+    return c;
+}
+
+void add_photon_mapped_sample(const Job& job, int x, int y, int i, std::vector<KeptIrradiance>& kept,
+                              std::vector<Neighbour>& scratch, PixelSums& sums, Counts& counts) {
+    const RenderSettings& settings = job.settings.render;
+    const Rng pixel = make_rng(settings.seed, Pass::render, pixel_place(x, y));
+    SampleState state;
+    state.rng = {hash_words(pixel.key, static_cast<std::uint64_t>(i)), 0};
+    state.points = {pixel.key, static_cast<std::uint32_t>(i)};
+    state.kept = &kept;
+    state.scratch = &scratch;
+    const Ray ray = pixel_ray(job.gbuffer.view, pixel_sample(settings.seed, x, y, i));
+    const Color radiance = checked(shade(job.shading, ray, state), counts.faults);
+    PixelSums::Group& group = state.painted ? sums.painted : sums.plain;
+    group.radiance += radiance;
+    group.alpha += 1 - (state.painted_weight.x + state.painted_weight.y + state.painted_weight.z) / 3;
+    ++group.count;
+    if (job.shading.parts) {
+        SampleFaults ignored;
+        group.direct += checked(state.direct, ignored);
+        group.indirect += checked(state.indirect, ignored);
+        group.caustic += checked(state.caustic, ignored);
+        group.specular += checked(state.specular, ignored);
+    }
+    counts.rays += state.rays;
+    counts.gathers += state.gathers;
+}
+
+void add_path(const Job& job, int x, int y, int i, PixelSums& sums, Counts& counts) {
+    const RenderSettings& settings = job.settings.render;
+    Rng rng = make_rng(settings.seed, Pass::render, pixel_place(x, y));
+    rng.key = hash_words(rng.key, static_cast<std::uint64_t>(i));
+    const Ray ray = pixel_ray(job.gbuffer.view, pixel_sample(settings.seed, x, y, i));
+    sums.plain.radiance += checked(path_radiance(job.shading.world, ray, settings, true, rng), counts.faults);
+    sums.plain.alpha += 1;
+    ++sums.plain.count;
+    ++counts.rays;
+}
+
+void add_samples(const Job& job, int x, int y, int end, PixelSums& sums, Counts& counts) {
+    std::vector<KeptIrradiance> kept;
+    std::vector<Neighbour> scratch;
+    for (int i = sums.count(); i < end; ++i) {
+        if (job.settings.render.integrator == Integrator::path)
+            add_path(job, x, y, i, sums, counts);
+        else
+            add_photon_mapped_sample(job, x, y, i, kept, scratch, sums, counts);
+    }
+}
+
+// Mix of the painted object that a pixel's centre sees; 0 if none.
+double seen_mix(const World& world, const Seen& seen) {
+    return seen.npr ? world.objects[seen.object].paint.mix : 0;
+}
+
+// Nothing of the pixel is left for this pass.
+bool wholly_painted(const Job& job, int x, int y) {
+    const Seen& seen = job.gbuffer.seen.at(x, y);
+    return job.gbuffer.coverage.at(x, y) >= 1 && seen.via == 0 && seen_mix(job.shading.world, seen) >= 1;
+}
+
+bool needs_rays(const Job& job, int x, int y) {
+    return !job.settings.render.prune || !wholly_painted(job, x, y);
+}
+
+bool on_painted_border(const Job& job, int x, int y) {
+    const float coverage = job.gbuffer.coverage.at(x, y);
+    return coverage > 0 && coverage < 1;
+}
+
+Color mean_radiance(const PixelSums::Group& group) {
+    return group.radiance / static_cast<float>(std::max(1, group.count));
+}
+
+// Whether two pixels differ by more than the contrast asked for, in any channel as it is shown: above white
+// nothing is seen, and near black differences are judged against 2 % of white.
+bool contrasts(Color a, Color b, double contrast) {
+    for (int i = 0; i < 3; ++i) {
+        const double u = std::min(a[i], 1.0f), v = std::min(b[i], 1.0f);
+        if (std::abs(u - v) > contrast * (u + v + 0.02)) return true;
+    }
+    return false;
+}
+
+bool wants_more(const Job& job, const std::vector<PixelSums>& first, int x, int y) {
+    if (on_painted_border(job, x, y)) return true;
+    const PixelSums& here = first[job.index(x, y)];
+    const Color mine = mean_radiance(here.plain);
+    for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx) {
+            if (!job.window.contains(x + dx, y + dy)) continue;
+            const PixelSums& other = first[job.index(x + dx, y + dy)];
+            if (other.plain.count == 0) continue;
+            if (contrasts(mine, mean_radiance(other.plain), job.settings.render.contrast)) return true;
+        }
+    return false;
+}
+
+// Runs body(x, y, counts) for the pixels of a rectangle, tile by tile on all cores.
+template <class Body>
+void for_pixels(PixelRect r, const Progress& progress, std::int64_t done_before, std::int64_t total,
+                Counts& counts, const Body& body) {
+    if (r.empty()) return;
+    const int tx0 = r.x0 / tile, tx1 = (r.x1 + tile - 1) / tile, ty0 = r.y0 / tile,
+              ty1 = (r.y1 + tile - 1) / tile;
+    const int across = tx1 - tx0;
+    std::atomic<std::int64_t> done{done_before};
+    std::atomic<bool> stop{false};
+    std::mutex guard;
+    parallel_for(static_cast<std::int64_t>(across) * (ty1 - ty0), 1,
+                 [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+                     if (stop) return;
+                     Counts mine;
+                     std::int64_t pixels = 0;
+                     for (std::int64_t t = begin; t < end; ++t) {
+                         const int left = (tx0 + static_cast<int>(t % across)) * tile;
+                         const int top = (ty0 + static_cast<int>(t / across)) * tile;
+                         for (int y = std::max(top, r.y0); y < std::min(top + tile, r.y1); ++y)
+                             for (int x = std::max(left, r.x0); x < std::min(left + tile, r.x1);
+                                  ++x, ++pixels)
+                                 body(x, y, mine);
+                     }
+                     const std::lock_guard lock(guard);
+                     counts.faults.nan += mine.faults.nan;
+                     counts.faults.inf += mine.faults.inf;
+                     counts.faults.negative += mine.faults.negative;
+                     counts.rays += mine.rays;
+                     counts.gathers += mine.gathers;
+                     if (progress && !progress(done += pixels, total)) stop = true;
+                 });
+    if (stop) throw Interrupted{};
+}
+
+std::int64_t area(PixelRect r) {
+    return r.empty() ? 0 : static_cast<std::int64_t>(r.x1 - r.x0) * (r.y1 - r.y0);
+}
+
+// A pixel's two groups joined by its coverage; where one group is empty the other stands for all.
+template <class T>
+T joined(const PixelSums& sums, float coverage, T PixelSums::Group::*what) {
+    const T plain = sums.plain.count > 0 ? sums.plain.*what / static_cast<float>(sums.plain.count) : T{0};
+    const T painted =
+        sums.painted.count > 0 ? sums.painted.*what / static_cast<float>(sums.painted.count) : T{0};
+    const float share = sums.plain.count == 0 ? 1.0f : (sums.painted.count == 0 ? 0.0f : coverage);
+    return plain * (1 - share) + painted * share;
+}
+
+void write_pixel(const Job& job, int x, int y, RenderResult& result) {
+    const PixelSums& sums = job.sums[job.index(x, y)];
+    const float coverage = job.gbuffer.coverage.at(x, y);
+    if (sums.count() == 0) return;
+    result.layer.color.at(x, y) = joined(sums, coverage, &PixelSums::Group::radiance);
+    result.layer.alpha.at(x, y) = std::clamp(joined(sums, coverage, &PixelSums::Group::alpha), 0.0f, 1.0f);
+    if (!result.parts.wanted) return;
+    result.parts.direct.at(x, y) = joined(sums, coverage, &PixelSums::Group::direct);
+    result.parts.indirect.at(x, y) = joined(sums, coverage, &PixelSums::Group::indirect);
+    result.parts.caustic.at(x, y) = joined(sums, coverage, &PixelSums::Group::caustic);
+    result.parts.specular.at(x, y) = joined(sums, coverage, &PixelSums::Group::specular);
+    const Seen& seen = job.gbuffer.seen.at(x, y);
+    const GatherSettings& gathers =
+        job.shading.indirect.count > 0 ? job.shading.indirect : job.shading.caustic;
+    if (seen.z > 0 && gathers.count > 0 && !job.shading.map.photons.empty()) {
+        std::vector<Neighbour> found;
+        find_within(job.shading.map.tree, seen.position, gathers.radius, found);
+        result.parts.photon_density.at(x, y) =
+            static_cast<float>(static_cast<double>(found.size()) / (pi * gathers.radius * gathers.radius));
+    }
+}
+
+// What the map is asked for: nothing where there is none, caustics alone in POV-Ray's `photons {}` scenes.
+void choose_gathers(Shading& shading, const PhotonSettings& photons) {
+    shading.indirect.count = shading.caustic.count = 0;
+    if (shading.map.photons.empty() || shading.world.illumination == Illumination::raytraced) return;
+    const GatherSettings both = default_gather(shading.world, shading.map, photons);
+    shading.caustic = both;
+    shading.caustic.indirect = false;
+    if (!shading.world.has_specular) shading.caustic.count = 0;
+    if (shading.world.illumination != Illumination::photon_mapped) return;
+    shading.indirect = both;
+    shading.indirect.caustic = false;
+}
+
+RenderResult empty_result(int width, int height, bool want_parts) {
+    RenderResult result;
+    result.layer = {Image<Color>(width, height), Image<float>(width, height)};
+    result.parts.wanted = want_parts;
+    if (want_parts) {
+        for (Image<Color>* part :
+             {&result.parts.direct, &result.parts.indirect, &result.parts.caustic, &result.parts.specular})
+            *part = Image<Color>(width, height);
+        result.parts.photon_density = Image<float>(width, height);
+    }
+    return result;
+}
+
+} // namespace
+
+RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap& map,
+                    const Settings& settings, PixelRect window, bool want_parts, const Progress& progress) {
+    const int width = gbuffer.view.width, height = gbuffer.view.height;
+    RenderResult result = empty_result(width, height, want_parts);
+    const bool path = settings.render.integrator == Integrator::path;
+    const int first = std::max(1, path ? settings.render.samples_max : settings.render.samples_min);
+    const int most = std::max(first, settings.render.samples_max);
+    Shading shading{world, map, settings.render, {}, {}, 1, want_parts};
+    shading.shadow_samples = std::max(1, (settings.render.shadow_samples + first - 1) / first);
+    choose_gathers(shading, settings.photons);
+
+    Job job{shading, gbuffer, settings, grow(window, 1, width, height), {}};
+    job.sums.resize(static_cast<std::size_t>(area(job.window)));
+    const PixelRect inner = grow(window, 0, width, height);
+    const std::int64_t total = std::max<std::int64_t>(1, area(job.window) + area(inner));
+    Counts counts;
+    for_pixels(job.window, progress, 0, total, counts, [&](int x, int y, Counts& mine) {
+        if (needs_rays(job, x, y)) add_samples(job, x, y, first, job.sums[job.index(x, y)], mine);
+    });
+    // Which pixels want more is read from the first samples alone, so that no order of pixels can matter.
+    const std::vector<PixelSums> before = most > first ? job.sums : std::vector<PixelSums>{};
+    for_pixels(inner, progress, area(job.window), total, counts, [&](int x, int y, Counts& mine) {
+        if (most > first && needs_rays(job, x, y) && wants_more(job, before, x, y))
+            add_samples(job, x, y, most, job.sums[job.index(x, y)], mine);
+        write_pixel(job, x, y, result);
+    });
+    result.faults = counts.faults;
+    result.camera_rays = counts.rays;
+    result.gathers = counts.gathers;
+    return result;
+}
+
+} // namespace pnr
