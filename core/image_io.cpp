@@ -93,7 +93,7 @@ std::vector<unsigned char> encode_exr(const ImageFile& image) {
 }
 
 std::vector<unsigned char> encode_png(const Image<Color>& linear, const Image<float>& alpha,
-                                      const std::vector<std::pair<std::string, std::string>>& metadata) {
+                                      const Metadata& metadata) {
     BytePicture picture{linear.width, linear.height, alpha.empty() ? 3 : 4, {}, metadata};
     picture.bytes.reserve(linear.pixels.size() * static_cast<std::size_t>(picture.channels));
     for (std::size_t i = 0; i < linear.pixels.size(); ++i) {
@@ -113,7 +113,7 @@ void write_exr(const fs::path& file, const ImageFile& image) {
 }
 
 void write_png(const fs::path& file, const Image<Color>& linear, const Image<float>& alpha,
-               const std::vector<std::pair<std::string, std::string>>& metadata) {
+               const Metadata& metadata) {
     write_file_atomically(file, encode_png(linear, alpha, metadata));
 }
 

@@ -9,9 +9,13 @@
 #include <filesystem>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace pnr {
+
+// What a picture says of itself: names and texts or numbers.
+using Metadata = std::vector<std::pair<std::string, std::variant<std::string, float>>>;
 
 // One part of an EXR: `channels` planes of width * height floats, interleaved, named.
 struct ImagePart {
@@ -24,7 +28,7 @@ struct ImageFile {
     int width = 0, height = 0; // the displayWindow
     PixelRect data_window;     // pixels in `data`; the whole picture when x1 == 0
     std::vector<ImagePart> parts;
-    std::vector<std::pair<std::string, std::string>> metadata; // strings
+    Metadata metadata;
 };
 
 // All write functions write whole files or none (atomic_file.h) and throw FileError with the reason. Colour
@@ -33,7 +37,7 @@ void write_exr(const std::filesystem::path& file, const ImageFile& image);
 // 8 bits, sRGB transfer, clipped to [0, 1]; no dithering; not a number is black. Exposure and shoulder are
 // the caller's. `alpha` may be empty: then the file has none. With alpha, `linear` is premultiplied by it.
 void write_png(const std::filesystem::path& file, const Image<Color>& linear, const Image<float>& alpha,
-               const std::vector<std::pair<std::string, std::string>>& metadata);
+               const Metadata& metadata);
 
 // Reads any picture as linear Rec.709 with alpha: 8-bit and 16-bit integer files are taken as sRGB, float
 // ones as linear. Throws FileError.
@@ -41,7 +45,7 @@ Image<glm::vec4> read_image(const std::filesystem::path& file);
 // The bytes of such files, for writing to standard output.
 std::vector<unsigned char> encode_exr(const ImageFile& image);
 std::vector<unsigned char> encode_png(const Image<Color>& linear, const Image<float>& alpha,
-                                      const std::vector<std::pair<std::string, std::string>>& metadata);
+                                      const Metadata& metadata);
 
 // Reads a picture of many channels (EXR) as it is: every part that has the first one's size.
 ImageFile read_exr(const std::filesystem::path& file);

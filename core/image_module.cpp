@@ -34,6 +34,15 @@ int index_of(const std::vector<std::string>& names, const std::string& wanted) {
     return -1;
 }
 
+void add_metadata(OIIO::ImageSpec& spec, const Metadata& metadata) {
+    for (const auto& [key, value] : metadata) {
+        if (const auto* number = std::get_if<float>(&value))
+            spec.attribute(key, *number);
+        else
+            spec.attribute(key, std::get<std::string>(value));
+    }
+}
+
 OIIO::ImageSpec exr_spec(const ImageFile& image, const ImagePart& part, const PixelRect& window) {
     OIIO::ImageSpec spec(window.x1 - window.x0, window.y1 - window.y0,
                          static_cast<int>(part.channel_names.size()),
@@ -51,7 +60,7 @@ OIIO::ImageSpec exr_spec(const ImageFile& image, const ImagePart& part, const Pi
         spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709_chromaticities);
         spec.attribute("oiio:ColorSpace", "Linear");
     }
-    for (const auto& [key, value] : image.metadata) spec.attribute(key, value);
+    add_metadata(spec, image.metadata);
     return spec;
 }
 
@@ -113,7 +122,7 @@ std::string encode_png(const BytePicture& picture, std::vector<unsigned char>& f
     OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("oiio:UnassociatedAlpha", 1);
-    for (const auto& [key, value] : picture.metadata) spec.attribute(key, value);
+    add_metadata(spec, picture.metadata);
     OIIO::Filesystem::IOVecOutput memory(file);
     const auto output = OIIO::ImageOutput::create("png", &memory);
     if (!output) return OIIO::geterror();
@@ -134,8 +143,12 @@ std::string decode(const std::string& path, DecodedPicture& picture) {
     image.width = first.full_width;
     image.height = first.full_height;
     image.data_window = {first.x, first.y, first.x + first.width, first.y + first.height};
-    for (const OIIO::ParamValue& attribute : first.extra_attribs)
-        image.metadata.emplace_back(attribute.name().string(), attribute.get_string());
+    for (const OIIO::ParamValue& attribute : first.extra_attribs) {
+        if (attribute.type() == OIIO::TypeDesc::FLOAT)
+            image.metadata.emplace_back(attribute.name().string(), attribute.get_float());
+        else
+            image.metadata.emplace_back(attribute.name().string(), attribute.get_string());
+    }
     for (int part = 0; input->seek_subimage(part, 0); ++part) {
         const OIIO::ImageSpec spec = input->spec();
         if (spec.width != first.width || spec.height != first.height) break; // an animation or a set of sizes

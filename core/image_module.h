@@ -15,7 +15,7 @@ namespace pnr {
 struct BytePicture {
     int width = 0, height = 0, channels = 3;
     std::vector<std::uint8_t> bytes;
-    std::vector<std::pair<std::string, std::string>> metadata;
+    Metadata metadata;
 };
 
 // Any picture as it lies in the file. `is_integer`: its values are integers scaled to [0, 1], else floats.

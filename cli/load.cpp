@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/load.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <iterator>
+#include <unistd.h>
+
+namespace pnr {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+LoadOptions load_options(const Options& options) {
+    LoadOptions load;
+    load.library = options.library;
+    if (const char* path = std::getenv("PNR_LIBRARY_PATH")) {
+        const std::string folders(path);
+        for (std::size_t begin = 0; begin < folders.size();) {
+            const std::size_t end = std::min(folders.find(':', begin), folders.size());
+            if (end > begin) load.library.emplace_back(folders.substr(begin, end - begin));
+            begin = end + 1;
+        }
+    }
+    load.declares = options.declares;
+    load.width = options.width;
+    load.height = options.height;
+    return load;
+}
+
+void check_readable(const std::string& name) {
+    std::error_code ignored;
+    const auto refuse = [&](const std::string& why) {
+        throw FileError(fmt::format("cannot read the scene `{}`: {}", name, why));
+    };
+    if (!fs::exists(name, ignored)) refuse("no such file");
+    if (fs::is_directory(name, ignored)) refuse("it is a folder");
+    if (::access(name.c_str(), R_OK) != 0) refuse("permission denied");
+}
+
+// Rays a pixel and shadow rays a light.
+void apply_quality(RenderSettings& render, Quality quality) {
+    render.quality = quality;
+    if (quality == Quality::draft) {
+        render.samples_min = 1;
+        render.samples_max = 4;
+        render.shadow_samples = 4;
+    } else if (quality == Quality::high) {
+        render.samples_min = 16;
+        render.samples_max = 64;
+        render.shadow_samples = 64;
+    }
+}
+
+} // namespace
+
+LoadResult load_named_scene(const std::string& name, const Options& options) {
+    const LoadOptions load = load_options(options);
+    if (name.empty()) return load_scene_text(default_scene_text(), "default.pnr", load);
+    if (name == "-") {
+        std::string text(std::istreambuf_iterator<char>(std::cin), {});
+        return load_scene_text(std::move(text), "<stdin>", load);
+    }
+    check_readable(name);
+    return load_scene(name, load);
+}
+
+bool may_render(const LoadResult& loaded, const Options& options) {
+    const bool warned = std::any_of(loaded.diagnostics.begin(), loaded.diagnostics.end(),
+                                    [](const Diagnostic& d) { return d.severity == Severity::warning; });
+    return loaded.scene.has_value() && !(options.werror && warned);
+}
+
+Settings merge_settings(const Settings& scene, const Options& options) {
+    Settings settings = scene;
+    RenderSettings& render = settings.render;
+    if (options.width || options.height) { // one side alone: the other follows the camera
+        render.width = options.width.value_or(0);
+        render.height = options.height.value_or(0);
+    }
+    if (options.seed) render.seed = *options.seed;
+    if (options.exposure) render.exposure = *options.exposure;
+    if (options.view) render.view = *options.view;
+    if (options.quality) apply_quality(render, *options.quality);
+    if (options.integrator) render.integrator = *options.integrator;
+    if (options.antialias) {
+        render.contrast = *options.antialias;
+        if (*options.antialias <= 0) render.samples_min = render.samples_max = 1;
+    }
+    if (!options.prune) render.prune = false;
+    return settings;
+}
+
+std::string scene_stem(const std::string& name) {
+    if (name.empty()) return "default";
+    if (name == "-") return "stdin";
+    return fs::path(name).stem().string();
+}
+
+} // namespace pnr

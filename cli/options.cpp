@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/options.h"
+
+#include "cli/povray_options.h"
+#include "parser/diagnostic.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+namespace pnr {
+
+namespace {
+
+// ---- values
+// -----------------------------------------------------------------------------------------------------
+
+// Numbers separated by commas, or by 'x' in WxH. Nothing if the text is anything else.
+template <std::size_t n>
+std::optional<std::array<double, n>> split_numbers(const std::string& text, char separator) {
+    std::array<double, n> numbers{};
+    const char* at = text.c_str();
+    for (std::size_t i = 0; i < n; ++i) {
+        char* end = nullptr;
+        numbers[i] = std::strtod(at, &end);
+        if (end == at || !std::isfinite(numbers[i])) return {};
+        if (*end != (i + 1 < n ? separator : '\0')) return {};
+        at = end + 1;
+    }
+    return numbers;
+}
+
+constexpr int largest_side = 65536;
+
+int to_side(double value, const std::string& option) {
+    if (!(value >= 1 && value <= largest_side && value == std::floor(value)))
+        throw UsageError(
+            fmt::format("{}: a size is a whole number of pixels from 1 to {}", option, largest_side));
+    return static_cast<int>(value);
+}
+
+std::array<int, 2> to_pixel(const std::string& text, const std::string& option) {
+    const auto numbers = split_numbers<2>(text, ',');
+    if (!numbers || (*numbers)[0] < 0 || (*numbers)[1] < 0 || (*numbers)[0] > largest_side ||
+        (*numbers)[1] > largest_side)
+        throw UsageError(
+            fmt::format("{} {}: a pixel is said as X,Y, counted from the top left", option, text));
+    return {static_cast<int>((*numbers)[0]), static_cast<int>((*numbers)[1])};
+}
+
+std::vector<std::string> split(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(separator, begin), text.size());
+        if (end > begin) parts.push_back(text.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return parts;
+}
+
+// ---- the options of each command
+// ----------------------------------------------------------------------------------
+
+// What CLI11 fills and still needs a look.
+struct Words {
+    std::string scene, size, crop, aov, at, to, help;
+    std::vector<std::string> declares, outputs, library;
+    bool no_prune = false;
+};
+
+void add_scene_options(CLI::App& app, Options& options, Words& words) {
+    app.add_option("-D", words.declares, "Declare an identifier before the scene's first line")
+        ->type_name("NAME=EXPR")
+        ->allow_extra_args(false);
+    app.add_option("-L", words.library, "Search this folder for included files, meshes and pictures")
+        ->type_name("DIR")
+        ->allow_extra_args(false);
+    app.add_flag("--werror", options.werror, "Take warnings for errors");
+}
+
+void add_size_options(CLI::App& app, Options& options, Words& words) {
+    app.add_option("-W", options.width, "Width in pixels (default: 512, or from -H and the camera)")
+        ->type_name("N");
+    app.add_option("-H", options.height, "Height in pixels (default: from the width and the camera)")
+        ->type_name("N");
+    app.add_option("--size", words.size, "Width and height at once")->type_name("WxH");
+}
+
+template <class T>
+void add_choice(CLI::App& app, const char* name, std::optional<T>& target, std::map<std::string, T> choices,
+                const char* text) {
+    std::string names;
+    for (const auto& choice : choices) names += (names.empty() ? "" : "|") + choice.first;
+    app.add_option_function<std::string>(
+           name,
+           [&target, choices, names, name](const std::string& word) {
+               const auto found = choices.find(word);
+               if (found == choices.end())
+                   throw UsageError(fmt::format("{} {}: {} is expected", name, word, names));
+               target = found->second;
+           },
+           text)
+        ->type_name(names);
+}
+
+void add_render(CLI::App& parent, Options& options, Words& words, std::optional<ProgressMode>& progress) {
+    CLI::App& app = *parent.add_subcommand("render", "Render a scene to a picture");
+    app.add_option("SCENE", words.scene,
+                   "A .pnr or .pov file; - reads standard input; none: the built-in scene");
+    app.add_option("-o", words.outputs,
+                   "Write this picture, .png or .exr; may be repeated; - is PNG on standard output")
+        ->type_name("IMAGE")
+        ->allow_extra_args(false);
+    add_size_options(app, options, words);
+    app.add_option("--threads", options.threads, "Threads to use (default: all)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+    app.add_option("--seed", options.seed, "Random seed; the same seed gives the same picture, bit for bit")
+        ->type_name("N");
+    add_scene_options(app, options, words);
+    app.add_option("--crop", words.crop,
+                   "Render this part alone, in pixels from the top left or in fractions")
+        ->type_name("X0,Y0,X1,Y1");
+    app.add_option("--exposure", options.exposure, "Brighten or darken PNG pictures by stops")
+        ->type_name("STOPS");
+    add_choice<View>(app, "--view", options.view, {{"clip", View::clip}, {"shoulder", View::shoulder}},
+                     "How PNG pictures treat light above 1");
+    add_choice<Quality>(app, "--quality", options.quality,
+                        {{"draft", Quality::draft}, {"normal", Quality::normal}, {"high", Quality::high}},
+                        "Fewer or more samples");
+    add_choice<Integrator>(app, "--integrator", options.integrator,
+                           {{"photons", Integrator::photons}, {"path", Integrator::path}},
+                           "How photoreal light is found: the photon map, or the slow path-traced reference");
+    app.add_option("--maps", options.maps,
+                   "Write photons, G-buffer, sparse and informative maps and both layers there")
+        ->type_name("DIR");
+    app.add_option("--aov", words.aov, "Add these parts to EXR pictures (see below)")->type_name("NAME,...");
+    app.add_option("--stats", options.stats, "Write times and counts as JSON")->type_name("FILE");
+    app.add_option("--save-photons", options.save_photons, "Keep the photon map")->type_name("FILE");
+    app.add_option("--load-photons", options.load_photons, "Use a kept photon map of the same scene")
+        ->type_name("FILE");
+    add_choice<ProgressMode>(
+        app, "--progress", progress,
+        {{"auto", ProgressMode::automatic}, {"off", ProgressMode::off}, {"json", ProgressMode::json}},
+        "Progress on standard error");
+    app.add_flag("--no-prune", words.no_prune, "Run every pass and structure, needed or not");
+    auto* skip = app.add_flag("--skip-existing", options.skip_existing,
+                              "Do nothing if the pictures are there already");
+    app.add_flag("--no-overwrite", options.no_overwrite, "Refuse to replace a picture")->excludes(skip);
+    app.add_option("--antialias", options.antialias)->group(""); // POV-Ray's +A
+    app.footer("Parts for --aov: N P Z id npr.mask direct indirect caustic specular photon.density sparse "
+               "informative\n"
+               "partial. POV-Ray's options (+W640 +H480 +I +O +L +Q +A0.3 +WT2 ...) are understood too.\n\n"
+               "Examples:\n"
+               "  pnr render                                   the built-in scene, to default.png\n"
+               "  pnr render pot.pnr -o pot.png -o pot.exr     two pictures of one rendering\n"
+               "  pnr render pot.pnr -H 1024 --maps pot.maps   a larger picture, and what lies behind it\n"
+               "  pnr render pot.pnr -D Turn=30 --stats -      with a declared number, statistics on "
+               "standard output");
+}
+
+void add_others(CLI::App& parent, Options& options, Words& words, std::optional<TextFormat>& format) {
+    const std::map<std::string, TextFormat> formats{{"text", TextFormat::text}, {"json", TextFormat::json}};
+    CLI::App& check = *parent.add_subcommand("check", "Read and evaluate scenes, render nothing");
+    check.add_option("SCENE", options.scenes, "Scene files; - reads standard input")->required();
+    add_scene_options(check, options, words);
+    add_choice(check, "--format", format, formats, "How to print what was found");
+    check.footer("Example:\n  pnr check *.pnr");
+
+    CLI::App& plan =
+        *parent.add_subcommand("plan", "Say which passes and structures a scene needs, and what is left out");
+    plan.add_option("SCENE", words.scene, "A scene file; none: the built-in scene");
+    add_scene_options(plan, options, words);
+    add_choice(plan, "--format", format, formats, "How to print the plan");
+    plan.add_flag("--no-prune", words.no_prune, "The plan when nothing is left out");
+
+    CLI::App& pick = *parent.add_subcommand("pick", "Say what is seen at a pixel, and a seed line for it");
+    pick.add_option("SCENE", words.scene, "A scene file; none: the built-in scene");
+    pick.add_option("--at", words.at, "The pixel, from the top left")->type_name("X,Y")->required();
+    pick.add_option("--to", words.to, "A second pixel: the seed's direction points there")
+        ->type_name("X2,Y2");
+    add_size_options(pick, options, words);
+    add_scene_options(pick, options, words);
+    pick.footer("Example:\n  pnr pick pot.pnr --at 250,300 --to 290,300\n"
+                "Pixels are those of the picture that `pnr render` makes with the same -W and -H.");
+
+    CLI::App& help = *parent.add_subcommand("help", "Explain a command");
+    help.add_option("COMMAND", words.help, "render, check, plan or pick");
+}
+
+void finish_options(Options& options, const Words& words) {
+    if (!words.scene.empty()) options.scenes = {words.scene};
+    for (const std::string& output : words.outputs) options.outputs.emplace_back(output);
+    for (const std::string& folder : words.library) options.library.emplace_back(folder);
+    for (const std::string& declare : words.declares) {
+        const std::size_t equals = declare.find('=');
+        if (equals == 0 || equals == std::string::npos || equals + 1 == declare.size())
+            throw UsageError(fmt::format("-D {}: a declaration is said as NAME=EXPR", declare));
+        options.declares.emplace_back(declare.substr(0, equals), declare.substr(equals + 1));
+    }
+    if (options.width) options.width = to_side(*options.width, "-W");
+    if (options.height) options.height = to_side(*options.height, "-H");
+    if (!words.size.empty()) {
+        const auto size = split_numbers<2>(words.size, 'x');
+        if (!size)
+            throw UsageError(fmt::format("--size {}: a size is said as WxH, e.g. 640x480", words.size));
+        options.width = to_side((*size)[0], "--size");
+        options.height = to_side((*size)[1], "--size");
+    }
+    if (!words.crop.empty()) {
+        options.crop = split_numbers<4>(words.crop, ',');
+        if (!options.crop)
+            throw UsageError(fmt::format("--crop {}: a crop is said as X0,Y0,X1,Y1", words.crop));
+    }
+    if (options.exposure && !(std::abs(*options.exposure) <= 100))
+        throw UsageError("--exposure: a number of stops from -100 to 100 is expected");
+    options.aovs = split(words.aov, ',');
+    options.prune = !words.no_prune;
+    if (!words.at.empty()) options.at = to_pixel(words.at, "--at");
+    if (!words.to.empty()) options.to = to_pixel(words.to, "--to");
+}
+
+// ---- help and errors
+// ------------------------------------------------------------------------------------------------
+
+std::string did_you_mean(const CLI::App& app, const std::vector<std::string>& arguments) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    const std::vector<std::string_view> candidates(names.begin(), names.end());
+    for (const std::string& argument : arguments) {
+        if (std::find(names.begin(), names.end(), argument) != names.end()) continue;
+        const std::string_view near = nearest_word(argument, candidates);
+        if (!near.empty()) return fmt::format("; did you mean `{}`?", near);
+    }
+    return "";
+}
+
+std::string help_text(CLI::App& app, const std::string& command) {
+    if (command.empty()) return app.help();
+    for (CLI::App* known : app.get_subcommands({}))
+        if (known->get_name() == command) return known->help("pnr " + command);
+    throw UsageError(fmt::format("there is no command `{}`{}", command, did_you_mean(app, {command})));
+}
+
+} // namespace
+
+CommandLine parse_command_line(std::vector<std::string> arguments) {
+    arguments = from_povray_options(std::move(arguments));
+    CommandLine line;
+    Words words;
+    std::optional<ProgressMode> progress;
+    std::optional<TextFormat> format;
+    CLI::App app(
+        "pnr renders scenes of POV-Ray's language, as a photograph and as a painting, by photon mapping.",
+        "pnr");
+    app.set_help_flag("-h,--help", "Print this help");
+    app.set_version_flag("--version", fmt::format("pnr {}", version()));
+    app.require_subcommand(1);
+    add_render(app, line.options, words, progress);
+    add_others(app, line.options, words, format);
+    app.footer(
+        "Exit codes: 0 done, 1 render failed, 2 usage, 3 error in the scene, 4 file not read or written,\n"
+        "130 or 143 stopped by a signal.");
+    try {
+        if (arguments.empty()) throw UsageError("a command is expected; `pnr help` lists them");
+        app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+        line.options.command = app.get_subcommands().front()->get_name();
+        if (line.options.command == "help") line.answer = help_text(app, words.help);
+    } catch (const CLI::CallForHelp&) {
+        const auto chosen = app.get_subcommands();
+        line.answer = help_text(app, chosen.empty() ? "" : chosen.front()->get_name());
+    } catch (const CLI::CallForVersion& version_text) {
+        line.answer = std::string(version_text.what()) + "\n";
+    } catch (const CLI::ParseError& error) {
+        const auto chosen = app.get_subcommands();
+        const CLI::App& at = chosen.empty() ? app : *chosen.front();
+        const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+                             dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+        throw UsageError(error.what() + (unknown ? did_you_mean(at, arguments) : ""));
+    }
+    if (!line.answer.empty()) return line;
+    line.options.progress = progress.value_or(ProgressMode::automatic);
+    line.options.format = format.value_or(TextFormat::text);
+    finish_options(line.options, words);
+    return line;
+}
+
+PixelRect crop_window(const std::optional<CropWord>& crop, int width, int height) {
+    if (!crop) return {0, 0, width, height};
+    CropWord c = *crop;
+    const bool fractions = *std::max_element(c.begin(), c.end()) <= 1;
+    if (fractions) c = {c[0] * width, c[1] * height, c[2] * width, c[3] * height};
+    const PixelRect window{static_cast<int>(std::lround(c[0])), static_cast<int>(std::lround(c[1])),
+                           static_cast<int>(std::lround(c[2])), static_cast<int>(std::lround(c[3]))};
+    if (window.x0 < 0 || window.y0 < 0 || window.x1 > width || window.y1 > height || window.x0 >= window.x1 ||
+        window.y0 >= window.y1)
+        throw UsageError(fmt::format("--crop: {},{},{},{} is not a part of the picture of {} x {} pixels",
+                                     window.x0, window.y0, window.x1, window.y1, width, height));
+    return window;
+}
+
+} // namespace pnr

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the command line said. Everything that the scene can say too is optional here: unset leaves the
+// scene's word.
+#pragma once
+
+#include "core/image.h"
+#include "core/settings.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace pnr {
+
+enum class ProgressMode { automatic, off, json };
+enum class TextFormat { text, json };
+
+// --crop as said: pixels from the top left, the last two exclusive, or fractions of the picture when none is
+// above 1.
+using CropWord = std::array<double, 4>;
+
+struct Options {
+    std::string command;                        // render, check, plan, pick
+    std::vector<std::string> scenes;            // empty: the embedded default scene; "-": standard input
+    std::vector<std::filesystem::path> outputs; // "-": PNG to standard output
+    std::optional<int> width, height;
+    int threads = 0; // 0: as many as the machine gives
+    std::optional<std::uint64_t> seed;
+    std::vector<std::pair<std::string, std::string>> declares;
+    std::vector<std::filesystem::path> library;
+    std::optional<CropWord> crop;
+    std::optional<double> exposure;
+    std::optional<View> view;
+    std::optional<Quality> quality;
+    std::optional<Integrator> integrator;
+    std::optional<double> antialias; // POV-Ray's +A threshold; 0: one sample a pixel
+    std::filesystem::path maps, stats, save_photons, load_photons; // empty: not asked for
+    std::vector<std::string> aovs;
+    ProgressMode progress = ProgressMode::automatic;
+    bool prune = true, skip_existing = false, no_overwrite = false, werror = false;
+    TextFormat format = TextFormat::text;
+    std::array<int, 2> at{}; // pick: pixels
+    std::optional<std::array<int, 2>> to;
+};
+
+// The command line cannot be understood (exit code 2).
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// Either options to act on, or a text to print (help, version) and leave with 0.
+struct CommandLine {
+    Options options;
+    std::string answer;
+};
+
+// Arguments without the program's name. Throws UsageError.
+CommandLine parse_command_line(std::vector<std::string> arguments);
+
+// The crop in pixels of a picture of this size. Throws UsageError if it is empty or leaves the picture.
+PixelRect crop_window(const std::optional<CropWord>& crop, int width, int height);
+
+const char* version();
+
+} // namespace pnr

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs the passes one after the other, measures each and shows how far they are.
+#pragma once
+
+#include "cli/options.h"
+#include "core/parallel.h"
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace pnr {
+
+struct PassTime {
+    std::string name;
+    double wall_s = 0, cpu_s = 0; // all threads
+    double peak_rss_mb = 0;       // of the process so far; 0 if the pass did not run
+};
+
+// The names of all passes in their order (design: the file contract).
+const std::vector<std::string>& pass_names();
+
+class ProgressView; // passes.cpp
+
+class Passes {
+public:
+    // The clock starts with the process, so that loading the program counts for the first pass.
+    explicit Passes(ProgressMode mode);
+    ~Passes();
+
+    // Which passes will run, for the time left; called once that is known.
+    void expect(std::vector<std::string> names);
+
+    // Runs `work(progress)` under a name; times of the same name add up. All time since the end of the pass
+    // before counts for this one, so that the sum is the process's.
+    template <class Work>
+    auto run(const std::string& name, Work work) {
+        const Running running(*this, name);
+        return work(progress_of(name));
+    }
+
+    const std::vector<PassTime>& times() const { return times_; } // one entry a name, in pass_names' order
+    // A line on the terminal that does not break the bar.
+    void note(const std::string& line);
+
+private:
+    struct Running {
+        Running(Passes& owner, std::string name);
+        ~Running();
+        Running(const Running&) = delete;
+        Running& operator=(const Running&) = delete;
+        Passes& passes;
+        std::string pass;
+    };
+    Progress progress_of(const std::string& name);
+    void finish(const std::string& name);
+
+    std::unique_ptr<ProgressView> view_;
+    std::vector<PassTime> times_;
+    double wall_mark_ = 0, cpu_mark_ = 0;
+};
+
+} // namespace pnr

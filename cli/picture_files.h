@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The pictures that -o names: PNG for the eye, EXR with radiance and the parts asked for.
+#pragma once
+
+#include "cli/pipeline.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pnr {
+
+// Throws UsageError for an ending that is neither .png nor .exr, and FileError if the folder is missing or
+// must not be written: better now than after an hour. "-" is standard output.
+void check_output(const std::filesystem::path& output);
+
+// Throws FileError. Of a rendering that has no picture yet nothing is written.
+void write_picture(const Scene& scene, const Rendering& r, const std::vector<std::string>& aovs,
+                   const std::vector<PassTime>& times, const std::filesystem::path& output);
+
+} // namespace pnr

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/pipeline.h"
+
+#include "cli/interrupt.h"
+#include "core/trace_photons.h"
+
+#include <cmath>
+
+namespace pnr {
+
+namespace {
+
+PixelRect whole(const PictureView& view) { return {0, 0, view.width, view.height}; }
+
+Layer empty_layer(const PictureView& view) {
+    return {Image<Color>(view.width, view.height), Image<float>(view.width, view.height)};
+}
+
+std::vector<std::string> expected_passes(const Plan& plan, const Wishes& wishes) {
+    std::vector<std::string> names{"parse", "build"};
+    if (plan.photons && wishes.load_photons.empty()) names.emplace_back("photons");
+    if (plan.kdtree) names.emplace_back("kdtree");
+    names.emplace_back("gbuffer");
+    if (plan.paint) names.insert(names.end(), {"sparse", "orient", "informative", "ilic"});
+    names.insert(names.end(), {"render", "write"});
+    return names;
+}
+
+// Pass 1 [LW10 3.1], or a map that an earlier run has kept.
+PhotonMap make_photons(const Scene& scene, const Rendering& r, const Wishes& wishes, Passes& passes) {
+    PhotonMap map = passes.run("photons", [&](const Progress& progress) {
+        if (!wishes.load_photons.empty()) return load_photons(scene.hash, wishes.load_photons);
+        if (!r.plan.photons) return PhotonMap{};
+        return trace_photons(r.world, r.settings.photons, r.settings.render.seed, 0, r.plan.normals,
+                             progress);
+    });
+    if (!wishes.save_photons.empty())
+        passes.run("write", [&](const Progress&) { save_photons(map, scene.hash, wishes.save_photons); });
+    if (r.plan.kdtree) passes.run("kdtree", [&](const Progress&) { build_photon_tree(map); });
+    return map;
+}
+
+// Pass 2 [LW10 3.2]: sparse map, orientation, informative map, ILIC.
+void paint(Rendering& r, Passes& passes) {
+    PaintResult& p = r.paint;
+    const std::uint64_t seed = r.settings.render.seed;
+    p.sparse = passes.run("sparse", [&](const Progress& progress) {
+        return make_sparse_map(r.world, r.gbuffer, r.photons, r.settings, progress);
+    });
+    passes.run("orient", [&](const Progress& progress) {
+        p.fields = make_orientation_fields(r.world);
+        p.oriented = orient_photons(r.world, r.photons, p.fields, progress);
+        orient_strokes(p.sparse, r.world, r.gbuffer, r.photons, p.oriented);
+    });
+    p.informative = passes.run("informative", [&](const Progress& progress) {
+        return make_informative_map(p.sparse, r.world, r.gbuffer, seed, progress);
+    });
+    p.layer = passes.run("ilic", [&](const Progress& progress) {
+        return convolve(p.informative, p.sparse, r.world, r.gbuffer, seed, progress);
+    });
+}
+
+// The two layers as one, without a value that no file can hold.
+Layer put_together(const Layer& painted, const Layer& photoreal, const PixelRect& window,
+                   SampleFaults& faults) {
+    Layer picture{over(painted, photoreal), photoreal.alpha};
+    for (int y = 0; y < picture.color.height; ++y) {
+        for (int x = 0; x < picture.color.width; ++x) {
+            Color& color = picture.color.at(x, y);
+            float& alpha = picture.alpha.at(x, y);
+            if (x < window.x0 || x >= window.x1 || y < window.y0 || y >= window.y1) {
+                color = Color(0);
+                alpha = 0;
+                continue;
+            }
+            alpha = std::min(1.0f, alpha + painted.alpha.at(x, y));
+            for (int c = 0; c < 3; ++c) {
+                if (std::isfinite(color[c])) continue;
+                ++(std::isnan(color[c]) ? faults.nan : faults.inf);
+                color[c] = 0;
+            }
+        }
+    }
+    return picture;
+}
+
+} // namespace
+
+PictureSize picture_size(const Camera& camera, const RenderSettings& settings) {
+    const double aspect = glm::length(camera.right) / glm::length(camera.up);
+    const auto side = [](double pixels) {
+        return std::clamp(static_cast<int>(std::lround(std::min(pixels, 1e6))), 1, 65536);
+    };
+    if (settings.width > 0 && settings.height > 0) return {settings.width, settings.height};
+    if (settings.width > 0) return {settings.width, side(settings.width / aspect)};
+    if (settings.height > 0) return {side(settings.height * aspect), settings.height};
+    return default_size(camera);
+}
+
+Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, Passes& passes) {
+    Rendering r;
+    r.settings = settings;
+    const PictureSize size = picture_size(scene.camera, settings.render);
+    r.settings.render.width = size.width;
+    r.settings.render.height = size.height;
+    r.window = crop_window(wishes.crop, size.width, size.height);
+
+    r.world = passes.run("build", [&](const Progress&) { return build_world(scene, r.settings); });
+    r.plan = make_plan(r.world, r.settings, wishes.maps);
+    passes.expect(expected_passes(r.plan, wishes));
+    stop_gently();
+    const PictureView view{r.world.camera, size.width, size.height};
+    // Strokes and fills reach across the picture, so a crop of a painting is cut from the whole painting.
+    const bool all = r.plan.paint || wishes.maps;
+    try {
+        r.photons = make_photons(scene, r, wishes, passes);
+        r.gbuffer = passes.run("gbuffer", [&](const Progress& progress) {
+            return make_gbuffer(r.world, view, all ? whole(view) : grow(r.window, 1, view.width, view.height),
+                                r.settings.render, progress);
+        });
+        if (r.plan.paint) paint(r, passes);
+        r.rendered = passes.run("render", [&](const Progress& progress) {
+            return render(r.world, r.gbuffer, r.photons, r.settings, r.window, wishes.light_parts, progress);
+        });
+    } catch (const Interrupted&) {
+        r.stopped = true;
+    }
+    r.faults = r.rendered.faults;
+    const bool nothing = r.paint.layer.color.empty() && r.rendered.layer.color.empty();
+    if (r.stopped && nothing) return r;
+    if (r.paint.layer.color.empty()) r.paint.layer = empty_layer(view);
+    if (r.rendered.layer.color.empty()) r.rendered.layer = empty_layer(view);
+    r.picture = put_together(r.paint.layer, r.rendered.layer, r.window, r.faults);
+    return r;
+}
+
+} // namespace pnr

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The paper's pipeline as five calls: build_world, trace_photons, make_gbuffer, paint, render [LW10 Fig. 1];
+// then `over` puts the painted layer over the photoreal one. Every intermediate is a value that can be looked
+// at.
+#pragma once
+
+#include "cli/passes.h"
+#include "core/gbuffer.h"
+#include "core/photon_map.h"
+#include "core/plan.h"
+#include "core/render.h"
+#include "core/scene.h"
+#include "core/world.h"
+#include "npr/paint.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace pnr {
+
+// What is wanted beside the picture.
+struct Wishes {
+    std::optional<CropWord> crop;
+    bool maps = false;        // every intermediate must exist, also where the scene does not need it
+    bool light_parts = false; // direct, indirect, caustic and specular light apart
+    std::filesystem::path save_photons, load_photons; // empty: no
+};
+
+// All that a rendering leaves behind. Images have the picture's full size; pixels outside `window` are 0.
+struct Rendering {
+    Settings settings; // with the picture's size filled in
+    PixelRect window;  // the crop, or the whole picture
+    World world;
+    Plan plan;
+    PhotonMap photons;
+    GBuffer gbuffer;
+    PaintResult paint; // empty images if nothing is painted and no maps are wanted
+    RenderResult rendered;
+    Layer picture; // linear; empty if the passes were stopped before there was anything to show
+    SampleFaults faults;
+    bool stopped = false; // by a signal: `picture` shows what there was
+};
+
+// The size of the picture: what the settings say, the missing side from the camera's shape.
+PictureSize picture_size(const Camera& camera, const RenderSettings& settings);
+
+// Throws SceneError, FileError, UsageError (a crop that leaves the picture).
+Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, Passes& passes);
+
+} // namespace pnr

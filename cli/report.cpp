@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+#include <unistd.h>
+
+namespace pnr {
+
+namespace {
+
+void print(const std::string& text) {
+    std::fwrite(text.data(), 1, text.size(), stderr);
+    std::fflush(stderr);
+}
+
+void print_line(const char* kind, const char* color, const std::string& text) {
+    if (color_on_stderr())
+        print(fmt::format("pnr: \x1b[1;{}m{}:\x1b[0m {}\n", color, kind, text));
+    else
+        print(fmt::format("pnr: {}: {}\n", kind, text));
+}
+
+} // namespace
+
+bool color_on_stderr() {
+    const char* no_color = std::getenv("NO_COLOR"); // https://no-color.org: set and not empty
+    return ::isatty(STDERR_FILENO) != 0 && (no_color == nullptr || *no_color == '\0');
+}
+
+void print_error(const std::string& text) { print_line("error", "31", text); }
+void print_warning(const std::string& text) { print_line("warning", "35", text); }
+
+void print_diagnostics(const std::vector<Diagnostic>& diagnostics, const Sources& sources) {
+    const bool color = color_on_stderr();
+    for (const Diagnostic& diagnostic : diagnostics) print(format(diagnostic, sources, color));
+}
+
+Diagnostic as_diagnostic(const SceneError& error, Sources& sources) {
+    Diagnostic diagnostic{Severity::error, {}, error.what(), {}, {}};
+    const SourceRef& at = error.said_at;
+    std::uint32_t index = 0;
+    while (index < sources.files.size() && sources.files[index].path != at.file) ++index;
+    if (index == sources.files.size()) index = sources.add(at.file.empty() ? "scene" : at.file, "");
+    const SourceText& source = sources.files[index];
+    std::uint32_t begin = 0;
+    if (at.line >= 1 && static_cast<std::size_t>(at.line) <= source.line_starts.size())
+        begin = source.line_starts[static_cast<std::size_t>(at.line - 1)] +
+                static_cast<std::uint32_t>(std::max(0, at.column - 1));
+    begin = std::min(begin, static_cast<std::uint32_t>(source.text.size()));
+    std::uint32_t end = begin;
+    const auto in_word = [&](std::uint32_t i) {
+        return std::isalnum(static_cast<unsigned char>(source.text[i])) != 0 || source.text[i] == '_';
+    };
+    while (end < source.text.size() && in_word(end)) ++end;
+    if (end == begin && end < source.text.size()) ++end;
+    diagnostic.span = {index, begin, end};
+    return diagnostic;
+}
+
+std::vector<std::string> warning_texts(const std::vector<Diagnostic>& diagnostics, const Sources& sources) {
+    std::vector<std::string> texts;
+    for (const Diagnostic& d : diagnostics) {
+        if (d.severity != Severity::warning) continue;
+        const LineColumn at = sources.locate(d.span.source, d.span.begin);
+        texts.push_back(
+            fmt::format("{}:{}:{}: {}", sources.files[d.span.source].path, at.line, at.column, d.message));
+    }
+    return texts;
+}
+
+} // namespace pnr

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/stats.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace pnr {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json rgb(const glm::dvec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+Json photon_counts(const PhotonMap& map) {
+    const auto count = [&](auto of_kind) {
+        return std::count_if(map.photons.begin(), map.photons.end(), of_kind);
+    };
+    return {{"emitted", map.emitted},
+            {"stored", map.photons.size()},
+            {"npr", count([](const Photon& p) { return p.npr(); })},
+            {"caustic", count([](const Photon& p) { return p.path() == PhotonPath::caustic; })},
+            {"emitted_power", rgb(map.balance.emitted)},
+            {"absorbed_power", rgb(map.balance.absorbed)},
+            {"escaped_power", rgb(map.balance.escaped)}};
+}
+
+Json paint_counts(const Rendering& r) {
+    const auto count = [&](PixelKind kind) {
+        return std::count_if(r.paint.informative.pixels.begin(), r.paint.informative.pixels.end(),
+                             [kind](const Informed& p) { return p.kind == kind; });
+    };
+    const auto painted = std::count_if(r.gbuffer.seen.pixels.begin(), r.gbuffer.seen.pixels.end(),
+                                       [](const Seen& seen) { return seen.npr; });
+    return {{"source_pixels", count(PixelKind::source)},
+            {"painted_pixels", painted},
+            {"filled_pixels", count(PixelKind::filled)}};
+}
+
+Json plan_object(const Plan& plan) {
+    Json left_out = Json::array();
+    for (const LeftOut& left : plan.left_out) left_out.push_back({{"what", left.what}, {"why", left.why}});
+    return {{"used", plan.used}, {"left_out", left_out}};
+}
+
+} // namespace
+
+std::string stats_json(const Scene& scene, const Rendering& r, const std::vector<PassTime>& times,
+                       const std::vector<std::string>& warnings) {
+    Json passes = Json::array();
+    for (const PassTime& time : times)
+        passes.push_back({{"name", time.name},
+                          {"wall_s", time.wall_s},
+                          {"cpu_s", time.cpu_s},
+                          {"peak_rss_mb", time.peak_rss_mb}});
+    const Json stats{
+        {"schema", 1},
+        {"program", "pnr"},
+        {"version", version()},
+        {"scene", scene.file},
+        {"scene_hash", fmt::format("{:016x}", scene.hash)},
+        {"threads", thread_count()},
+        {"seed", r.settings.render.seed},
+        {"image", {{"width", r.settings.render.width}, {"height", r.settings.render.height}}},
+        {"passes", passes},
+        {"photons", photon_counts(r.photons)},
+        {"npr", paint_counts(r)},
+        {"rays", {{"camera", r.rendered.camera_rays}, {"gathers", r.rendered.gathers}}},
+        {"numbers", {{"nan", r.faults.nan}, {"inf", r.faults.inf}, {"negative", r.faults.negative}}},
+        {"plan", plan_object(r.plan)},
+        {"error", {{"asked", 0}, {"reached", 0}}},
+        {"warnings", warnings},
+    };
+    return stats.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string plan_text(const Plan& plan) {
+    std::string text;
+    for (const std::string& what : plan.used) text += fmt::format("uses       {}\n", what);
+    for (const LeftOut& left : plan.left_out) text += fmt::format("leaves out {}: {}\n", left.what, left.why);
+    return text;
+}
+
+std::string plan_json(const Plan& plan) { return plan_object(plan).dump(2) + "\n"; }
+
+} // namespace pnr
