@@ -71,6 +71,10 @@ float squared_distance(const KdTree& tree, std::size_t i, Vec3f p) {
     return dx * dx + dy * dy + dz * dz;
 }
 
+std::uint32_t original(const KdTree& tree, std::size_t i) {
+    return tree.order.empty() ? static_cast<std::uint32_t>(i) : tree.order[i];
+}
+
 bool nearer(const Neighbour& a, const Neighbour& b) {
     return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.index < b.index);
 }
@@ -113,29 +117,65 @@ void walk(const KdTree& tree, Vec3f p, float& bound, Visit visit) {
 
 } // namespace
 
-KdTree build_kdtree(std::span<const Vec3f> points) {
+namespace {
+
+// An empty tree of the right size.
+KdTree shape_tree(std::size_t count) {
     KdTree tree;
-    tree.count = points.size();
+    tree.count = count;
+    if (count == 0) return tree;
+    while ((leaf_points << tree.levels) < count) ++tree.levels;
+    const std::size_t nodes = std::size_t{2} << tree.levels;
+    tree.low.resize(nodes);
+    tree.high.resize(nodes);
+    for (std::vector<float>* axis : {&tree.x, &tree.y, &tree.z}) axis->assign(count + padding, 0.f);
+    return tree;
+}
+
+void set_point(KdTree& tree, std::size_t i, Vec3f p) {
+    tree.x[i] = p.x;
+    tree.y[i] = p.y;
+    tree.z[i] = p.z;
+}
+
+} // namespace
+
+KdTree build_kdtree(std::span<const Vec3f> points) {
+    KdTree tree = shape_tree(points.size());
     if (points.empty()) return tree;
-    std::size_t leaves = 1;
-    while (leaves * leaf_points < points.size()) {
-        leaves *= 2;
-        ++tree.levels;
-    }
     std::vector<Item> items(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) items[i] = {points[i], static_cast<std::uint32_t>(i)};
-    tree.low.resize(2 * leaves);
-    tree.high.resize(2 * leaves);
-    Builder{tree, items}.build(1, 0, leaves);
+    Builder{tree, items}.build(1, 0, std::size_t{1} << tree.levels);
     tree.bounds = {Vec3(tree.low[1]), Vec3(tree.high[1])};
     tree.order.resize(points.size());
-    for (std::vector<float>* axis : {&tree.x, &tree.y, &tree.z}) axis->assign(points.size() + padding, 0.f);
     for (std::size_t i = 0; i < points.size(); ++i) {
         tree.order[i] = items[i].index;
-        tree.x[i] = items[i].p.x;
-        tree.y[i] = items[i].p.y;
-        tree.z[i] = items[i].p.z;
+        set_point(tree, i, items[i].p);
     }
+    return tree;
+}
+
+KdTree kdtree_of_leaf_order(std::span<const Vec3f> points) {
+    KdTree tree = shape_tree(points.size());
+    if (points.empty()) return tree;
+    const std::size_t leaves = std::size_t{1} << tree.levels;
+    for (std::size_t leaf = 0; leaf < leaves; ++leaf) {
+        const std::size_t begin = (leaf * tree.count) >> tree.levels;
+        const std::size_t end = ((leaf + 1) * tree.count) >> tree.levels;
+        Vec3f low = points[begin], high = low;
+        for (std::size_t i = begin; i < end; ++i) {
+            low = glm::min(low, points[i]);
+            high = glm::max(high, points[i]);
+            set_point(tree, i, points[i]);
+        }
+        tree.low[leaves + leaf] = low;
+        tree.high[leaves + leaf] = high;
+    }
+    for (std::size_t node = leaves - 1; node >= 1; --node) {
+        tree.low[node] = glm::min(tree.low[2 * node], tree.low[2 * node + 1]);
+        tree.high[node] = glm::max(tree.high[2 * node], tree.high[2 * node + 1]);
+    }
+    tree.bounds = {Vec3(tree.low[1]), Vec3(tree.high[1])};
     return tree;
 }
 
@@ -156,7 +196,7 @@ void find_nearest(const KdTree& tree, Vec3f point, int k, float radius, std::vec
     walk<true>(tree, point, bound, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const float d2 = squared_distance(tree, i, point);
-            if (d2 <= bound) found.push_back({d2, tree.order[i]});
+            if (d2 <= bound) found.push_back({d2, original(tree, i)});
         }
         // The first k found give a radius at once, later ones only lower it.
         if (found.size() > full || (first && found.size() >= wanted)) {
@@ -175,7 +215,7 @@ void find_within(const KdTree& tree, Vec3f point, float radius, std::vector<Neig
     walk<false>(tree, point, bound, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const float d2 = squared_distance(tree, i, point);
-            if (d2 <= bound) found.push_back({d2, tree.order[i]});
+            if (d2 <= bound) found.push_back({d2, original(tree, i)});
         }
     });
 }

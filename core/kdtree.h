@@ -30,6 +30,9 @@ struct KdTree {
 
 // Non-finite points are invalid input (the caller removes them). At most 2^31 points.
 KdTree build_kdtree(std::span<const Vec3f> points);
+// The same tree over its own points given in leaf order, in a fraction of the time and without `order`: for
+// data that was sorted by an earlier tree's order.
+KdTree kdtree_of_leaf_order(std::span<const Vec3f> points);
 
 // The k nearest with distance <= radius, nearest first, ties by index. `found` is cleared first and may be
 // reused between calls to save allocations. radius may be infinity.

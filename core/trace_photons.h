@@ -8,11 +8,11 @@
 
 namespace pnr {
 
-// Emits `settings.count` photons over all lights by their power, follows them by Russian roulette and stores one at every
-// diffuse hit. `keep_normals`: fill PhotonMap::normals (painted scenes, --maps). `pass` numbers progressive passes from 0.
-// Does not build the kd-tree: build_photon_tree does, so that the two are timed apart.
+// Emits `settings.count` photons over all lights by their power, follows them by Russian roulette and stores
+// one at every diffuse hit. `keep_normals`: fill PhotonMap::normals (painted scenes, --maps). `pass` numbers
+// progressive passes from 0. Does not build the kd-tree: build_photon_tree (photon_map.h) does, so that the
+// two are timed apart.
 PhotonMap trace_photons(const World& world, const PhotonSettings& settings, std::uint64_t seed, int pass,
                         bool keep_normals, const Progress& progress = {});
-void build_photon_tree(PhotonMap& map);
 
 } // namespace pnr

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/emission.h"
+
+#include "core/sobol.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pnr {
+
+namespace {
+
+bool has_unbounded(const World& world) {
+    return std::any_of(world.objects.begin(), world.objects.end(), [](const WorldObject& object) {
+        const Bounds& b = object.bounds;
+        return !is_empty(b) && !(std::isfinite(glm::length(b.high - b.low)));
+    });
+}
+
+Aim cone_aim(Vec3 axis, double one_minus_cos) {
+    Aim aim;
+    aim.axis = axis;
+    aim.one_minus_cos = one_minus_cos;
+    aim.measure = 2 * pi * one_minus_cos;
+    return aim;
+}
+
+// The directions from a light to the sphere about the origin: all of them from inside it.
+Aim aim_at_sphere(Vec3 from, double radius) {
+    const double distance = glm::length(from);
+    if (distance <= radius) return cone_aim({0, 0, 1}, 2);
+    const double sin2 = radius * radius / (distance * distance);
+    return cone_aim(-from / distance, sin2 / (1 + std::sqrt(1 - sin2)));
+}
+
+Aim point_aim(const Light& light, double radius) {
+    const Aim scene = aim_at_sphere(light.said.position, radius);
+    double spot = 2; // 1 - cos of what the light itself lights
+    if (light.said.spotlight)
+        spot = 1 - std::max(0.0, std::cos(light.said.falloff * pi / 180));
+    else if (light.said.cylinder)
+        spot = 1;
+    // The smaller cone; what lies outside the other carries nothing or meets nothing.
+    return spot < scene.one_minus_cos && spot > 0 ? cone_aim(light_axis(light), spot) : scene;
+}
+
+Aim parallel_aim(const Light& light, double radius) {
+    Aim aim;
+    aim.axis = light_axis(light);
+    const Vec3 to_origin = -light.said.position;
+    aim.center = light.said.position + to_origin - glm::dot(to_origin, aim.axis) * aim.axis;
+    aim.radius = radius;
+    if (light.said.cylinder && light.said.falloff < radius) {
+        aim.center = light.said.position;
+        aim.radius = light.said.falloff;
+    }
+    aim.measure = pi * aim.radius * aim.radius;
+    return aim;
+}
+
+std::vector<Aim> make_aims(const World& world, const Light& light, bool unbounded) {
+    const auto aim = [&](double radius) {
+        return light.said.parallel ? parallel_aim(light, radius) : point_aim(light, radius);
+    };
+    std::vector<Aim> aims{aim(world.radius)};
+    if (!unbounded) return aims;
+    const Aim wide = aim(emission_reach * world.radius);
+    // Not worth a second one if they are nearly the same.
+    if (wide.measure < 1.5 * aims[0].measure) return {wide};
+    aims.push_back(wide);
+    for (Aim& a : aims) a.share = 0.5;
+    return aims;
+}
+
+double mean(Color c) { return (static_cast<double>(c.x) + c.y + c.z) / 3; }
+
+// About the flux that a light sends into the scene.
+double light_weight(const World& world, const Light& light) {
+    if (light.is_emitter()) return mean(light.power);
+    const double scene = pi * world.radius * world.radius; // cross-section
+    const double distance = std::max(glm::length(light.said.position), world.radius);
+    double lit = scene;
+    if (light.said.parallel && light.said.cylinder)
+        lit = std::min(scene, pi * light.said.falloff * light.said.falloff);
+    if (light.said.spotlight && !light.said.parallel) {
+        const double spot = 2 * pi * (1 - std::max(0.0, std::cos(light.said.falloff * pi / 180)));
+        lit = std::min(scene, spot * distance * distance);
+    }
+    return pi * mean(light.said.color) * lit * light_fading(light, distance);
+}
+
+std::int64_t photon_count(const World& world, const PhotonSettings& settings) {
+    if (!(settings.spacing > 0)) return std::max<std::int64_t>(0, settings.count);
+    const double photons = 4 * pi * world.radius * world.radius / (settings.spacing * settings.spacing);
+    return static_cast<std::int64_t>(std::clamp(photons, 1.0, 1e9));
+}
+
+// Chooses an aim by the first coordinate and stretches what is left of it back to [0, 1).
+const Aim& choose_aim(const std::vector<Aim>& aims, double& u) {
+    for (std::size_t i = 0; i + 1 < aims.size(); ++i) {
+        if (u < aims[i].share) {
+            u /= aims[i].share;
+            return aims[i];
+        }
+        u -= aims[i].share;
+    }
+    u = std::min(u / aims.back().share, 0x1.fffffffffffffp-1);
+    return aims.back();
+}
+
+bool contains(const Aim& aim, Vec3 direction) {
+    // A rounding's width more than the cone, so that its own samples are never outside.
+    return 1 - glm::dot(aim.axis, direction) <= aim.one_minus_cos * (1 + 1e-9) + 1e-15;
+}
+
+EmittedPhoton emit_point(const Light& light, const LightShare& share, Vec2 u) {
+    const Aim& aim = choose_aim(share.aims, u.x);
+    EmittedPhoton photon;
+    photon.ray.origin = light.said.position;
+    photon.ray.direction = square_to_cone(u, make_frame(aim.axis), aim.one_minus_cos);
+    double density = 0; // per solid angle, over all aims
+    for (const Aim& a : share.aims)
+        if (&a == &aim || contains(a, photon.ray.direction)) density += a.share / a.measure;
+    photon.flux = light.said.color * static_cast<float>(pi / (density * static_cast<double>(share.count)));
+    return photon;
+}
+
+EmittedPhoton emit_parallel(const Light& light, const LightShare& share, Vec2 u) {
+    const Aim& aim = choose_aim(share.aims, u.x);
+    const Frame frame = make_frame(aim.axis);
+    const Vec2 d = square_to_disc(u) * aim.radius;
+    EmittedPhoton photon;
+    photon.ray.direction = aim.axis;
+    photon.ray.origin = aim.center + d.x * frame.x + d.y * frame.y;
+    double density = 0; // per area
+    for (const Aim& a : share.aims)
+        if (&a == &aim || glm::distance(photon.ray.origin, a.center) <= a.radius)
+            density += a.share / a.measure;
+    photon.flux = light.said.color * static_cast<float>(pi / (density * static_cast<double>(share.count)));
+    return photon;
+}
+
+} // namespace
+
+EmissionPlan plan_emission(const World& world, const PhotonSettings& settings) {
+    EmissionPlan plan;
+    const std::int64_t wanted = photon_count(world, settings);
+    double total = 0;
+    std::vector<double> weights;
+    for (const Light& light : world.lights) {
+        const double weight = light_weight(world, light);
+        weights.push_back(weight > 0 && std::isfinite(weight) ? weight : 0);
+        total += weights.back();
+    }
+    if (!(total > 0) || wanted == 0) return plan;
+    const bool unbounded = has_unbounded(world);
+    double before = 0; // rounding the running sum keeps the parts' sum at `wanted`
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        if (!(weights[i] > 0)) continue;
+        const auto part = [&](double weight) {
+            return std::llround(static_cast<double>(wanted) * (weight / total));
+        };
+        LightShare share;
+        share.light = static_cast<int>(i);
+        share.first = plan.count;
+        share.count = std::max<std::int64_t>(1, part(before + weights[i]) - part(before));
+        if (!world.lights[i].is_emitter()) share.aims = make_aims(world, world.lights[i], unbounded);
+        before += weights[i];
+        plan.count += share.count;
+        plan.shares.push_back(std::move(share));
+    }
+    return plan;
+}
+
+EmittedPhoton emit_photon(const World& world, const LightShare& share, std::uint64_t index,
+                          std::uint64_t seed) {
+    const Light& light = world.lights[static_cast<std::size_t>(share.light)];
+    const Vec2 u = sobol2(index, 0, seed);
+    if (!light.is_emitter())
+        return light.said.parallel ? emit_parallel(light, share, u) : emit_point(light, share, u);
+    const EmissionSample start = sample_emission(light, u, sobol2(index, 2, seed));
+    Hit from; // the emitter's own surface, so that the ray leaves it as from any hit
+    from.position = start.point;
+    from.normal = from.shading_normal = start.normal;
+    from.error = start.error;
+    return {leave(from, start.direction), light.power / static_cast<float>(share.count)};
+}
+
+} // namespace pnr

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How photons leave the lights: how many each light sends, where they start and what they carry.
+#pragma once
+
+#include "core/light.h"
+#include "core/settings.h"
+#include "core/world.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pnr {
+
+// A cone of directions (about a point) or a disc of a parallel beam's cross-section, into which photons go
+// evenly.
+struct Aim {
+    Vec3 axis{0, 0, 1};       // unit
+    double one_minus_cos = 2; // cone; 2: every direction
+    Vec3 center{0};           // disc, in the light's plane ...
+    double radius = 0;        // ... of a parallel light
+    double measure = 0;       // solid angle of the cone or area of the disc
+    double share = 1;         // of the light's photons
+};
+
+// One light's part of a pass.
+struct LightShare {
+    int light = 0;          // index into World::lights
+    std::int64_t first = 0; // its photons are [first, first + count) of the pass
+    std::int64_t count = 0;
+    std::vector<Aim> aims; // of a POV-Ray light; shares add up to 1. Empty for emitters.
+};
+
+struct EmissionPlan {
+    std::vector<LightShare> shares; // by light
+    std::int64_t count = 0;         // photons of a pass
+};
+
+// Shares the pass' photons out by power; for POV-Ray's lights by the flux that meets the scene. Lights
+// without power get none, others at least one. Photons of POV-Ray's lights aim at the scene's sphere and,
+// where unbounded objects stand in it, half of them at the sphere of `reach` scene radii within which photons
+// matter.
+EmissionPlan plan_emission(const World& world, const PhotonSettings& settings);
+inline constexpr double emission_reach = 4; // scene radii
+
+// A photon as it starts. flux of an emitter's photon: W. Of a POV-Ray light's: pi c / (N density); it becomes
+// the design's pi c s W d^2 f(d) / N at the hits, where s, d and f are known.
+struct EmittedPhoton {
+    Ray ray; // unit direction
+    Color flux{0};
+};
+// index counts the light's photons over all passes.
+EmittedPhoton emit_photon(const World& world, const LightShare& share, std::uint64_t index,
+                          std::uint64_t seed);
+
+} // namespace pnr
