@@ -41,7 +41,7 @@ std::optional<Projected> project(const PictureView& view, Vec3 point);
 // the point is not in front of the camera.
 Vec2 project_direction(const PictureView& view, Vec3 point, Vec3 direction);
 
-// Pixel size of the picture when only the camera is known: height 512, width 512 |right| / |up| (design.md section 4).
+// Pixel size of the picture when only the camera is known: width 512, height 512 |up| / |right|.
 struct PictureSize {
     int width, height;
 };

@@ -1,0 +1,403 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pnr {
+
+namespace {
+
+template <class... F>
+struct Overload : F... {
+    using F::operator()...;
+};
+
+constexpr Bounds everywhere{Vec3(-infinity), Vec3(infinity)};
+
+// Half extents of a disc of radius 1 with the unit normal n.
+Vec3 disc_extent(Vec3 n) { return glm::sqrt(glm::max(Vec3(0), Vec3(1) - n * n)); }
+
+Bounds cone_bounds(Vec3 base, Vec3 cap, double base_radius, double cap_radius) {
+    const double height = glm::length(cap - base);
+    const Vec3 extent = height > 0 ? disc_extent((cap - base) / height) : Vec3(1);
+    const Vec3 b = std::abs(base_radius) * extent, c = std::abs(cap_radius) * extent;
+    return merge(Bounds{base - b, base + b}, Bounds{cap - c, cap + c});
+}
+
+Bounds mesh_bounds(const MeshData& mesh) {
+    Bounds b;
+    for (const auto& triangle : mesh.triangles)
+        for (const std::uint32_t v : triangle) b = merge(b, Vec3(mesh.positions[v]));
+    return b;
+}
+
+// Collects hits inside the ray's open interval, kept in order of t.
+struct Hits {
+    const Ray& ray;
+    std::array<ShapeHit, 4>& hits;
+    int count = 0;
+
+    void add(double t, Vec3 normal, Vec2 uv = Vec2(0)) {
+        if (!(t > ray.t_min && t < ray.t_max) || count == 4) return;
+        int at = count++;
+        for (; at > 0 && hits[static_cast<std::size_t>(at) - 1].t > t; --at)
+            hits[static_cast<std::size_t>(at)] = hits[static_cast<std::size_t>(at) - 1];
+        hits[static_cast<std::size_t>(at)] = {t, normal, uv};
+    }
+};
+
+double turn_of(double x, double z) { // the angle from +x towards +z as a share of the turn, in [0, 1)
+    const double turn = std::atan2(z, x) / (2 * pi);
+    return turn < 0 ? turn + 1 : turn;
+}
+
+struct Roots {
+    int count = 0;
+    double low = 0, high = 0;
+};
+
+// Real roots of a t^2 + 2 b t + c = 0 when `discriminant` = b^2 - a c is already known (each caller has a way
+// to it that does not cancel), in increasing order.
+Roots quadratic_roots(double a, double b, double c, double discriminant) {
+    if (!(discriminant >= 0)) return {};
+    const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+    if (a == 0) {
+        if (b == 0) return {};
+        return {1, -c / (2 * b), -c / (2 * b)};
+    }
+    const double r0 = q / a, r1 = q != 0 ? c / q : r0;
+    return {2, std::min(r0, r1), std::max(r0, r1)};
+}
+
+// One Newton step for f(t) = 0, taken only where it helps.
+template <class F, class D>
+double polish(double t, F f, D derivative) {
+    const double value = f(t), slope = derivative(t);
+    if (slope == 0) return t;
+    const double better = t - value / slope;
+    return std::isfinite(better) && std::abs(f(better)) < std::abs(value) ? better : t;
+}
+
+// [Haines et al. 2019, "Precision improvements for ray/sphere intersection"]: the discriminant comes from the
+// point of the line closest to the centre, so that small and far spheres keep their outline.
+void intersect_sphere(const Sphere& s, Hits& out) {
+    const Vec3 o = out.ray.origin - s.center, d = out.ray.direction;
+    const double a = glm::dot(d, d), b = glm::dot(o, d), r2 = s.radius * s.radius;
+    if (!(a > 0) || !(r2 > 0)) return;
+    const Vec3 closest = o - (b / a) * d;
+    const Roots roots = quadratic_roots(a, b, glm::dot(o, o) - r2, a * (r2 - glm::dot(closest, closest)));
+    if (roots.count < 2) return;
+    const auto f = [&](double t) {
+        const Vec3 p = o + t * d;
+        return glm::dot(p, p) - r2;
+    };
+    const auto slope = [&](double t) { return 2 * glm::dot(o + t * d, d); };
+    for (double t : {roots.low, roots.high}) {
+        t = polish(t, f, slope);
+        const Vec3 n = o + t * d;
+        const double latitude = std::asin(std::clamp(n.y / std::sqrt(r2), -1.0, 1.0));
+        out.add(t, n, {turn_of(n.x, n.z), 0.5 + latitude / pi});
+    }
+}
+
+// A stretch of the ray inside a convex body, and the outward normals where it enters and leaves.
+struct Stretch {
+    double enter = -infinity, leave = infinity;
+    Vec3 enter_normal{0}, leave_normal{0};
+
+    void cut(double t0, Vec3 n0, double t1, Vec3 n1) {
+        if (t0 > enter) enter = t0, enter_normal = n0;
+        if (t1 < leave) leave = t1, leave_normal = n1;
+    }
+    bool empty() const { return !(enter <= leave); }
+    void add_to(Hits& out) const {
+        if (empty()) return;
+        out.add(enter, enter_normal);
+        out.add(leave, leave_normal);
+    }
+    // Cuts with low <= o + t d <= high, where the outward normals of the two ends are -n and n.
+    bool cut_slab(double o, double d, double low, double high, Vec3 n) {
+        if (d == 0) return o >= low && o <= high;
+        const double t0 = (low - o) / d, t1 = (high - o) / d;
+        if (d > 0)
+            cut(t0, -n, t1, n);
+        else
+            cut(t1, n, t0, -n);
+        return !empty();
+    }
+};
+
+void intersect_box(const Box& box, Hits& out) {
+    const Vec3 low = glm::min(box.low, box.high), high = glm::max(box.low, box.high);
+    Stretch inside;
+    for (int axis = 0; axis < 3; ++axis) {
+        Vec3 n(0);
+        n[axis] = 1;
+        if (!inside.cut_slab(out.ray.origin[axis], out.ray.direction[axis], low[axis], high[axis], n)) return;
+    }
+    inside.add_to(out);
+}
+
+void intersect_plane(const Plane& p, Hits& out) {
+    const double slope = glm::dot(p.normal, out.ray.direction);
+    if (slope != 0) out.add((p.distance - glm::dot(p.normal, out.ray.origin)) / slope, p.normal);
+}
+
+void intersect_disc(const Disc& disc, Hits& out) {
+    const Vec3 o = out.ray.origin - disc.center;
+    const double slope = glm::dot(disc.normal, out.ray.direction);
+    if (slope == 0) return;
+    const double t = -glm::dot(disc.normal, o) / slope;
+    const Vec3 p = o + t * out.ray.direction;
+    const double distance = glm::length(p - glm::dot(p, disc.normal) * disc.normal);
+    if (distance <= disc.radius && distance >= disc.hole) out.add(t, disc.normal);
+}
+
+// The cone |p_perpendicular|^2 = R(z)^2 along a ray, with z the height over the base and R linear in it.
+struct ConeSide {
+    Vec3 axis;        // unit
+    Vec3 o, d;        // perpendicular parts of the ray from the base
+    double oz, dz;    // its heights
+    double r0, slope; // R(z) = r0 + slope z
+    double a, b, c, discriminant;
+
+    double value(double t) const {
+        const Vec3 p = o + t * d;
+        const double r = radius(t);
+        return glm::dot(p, p) - r * r;
+    }
+    double radius(double t) const { return r0 + slope * (oz + t * dz); }
+    double derivative(double t) const { return 2 * (glm::dot(o + t * d, d) - radius(t) * slope * dz); }
+    Vec3 normal(double t) const {
+        const Vec3 n = o + t * d - radius(t) * slope * axis;
+        return n == Vec3(0) ? (slope < 0 ? axis : -axis) : n; // the apex
+    }
+    Vec2 uv(double t, double height) const {
+        const Frame frame = make_frame(axis);
+        const Vec3 p = o + t * d;
+        return {turn_of(glm::dot(p, frame.x), glm::dot(p, frame.y)), (oz + t * dz) / height};
+    }
+};
+
+ConeSide make_cone_side(const Cone& cone, double height, const Ray& ray) {
+    ConeSide s;
+    s.axis = (cone.cap - cone.base) / height;
+    const Vec3 from_base = ray.origin - cone.base;
+    s.oz = glm::dot(from_base, s.axis);
+    s.dz = glm::dot(ray.direction, s.axis);
+    s.o = from_base - s.oz * s.axis;
+    s.d = ray.direction - s.dz * s.axis;
+    s.r0 = cone.base_radius;
+    s.slope = (cone.cap_radius - cone.base_radius) / height;
+    const double r = s.r0 + s.slope * s.oz, rd = s.slope * s.dz;
+    const double dd = glm::dot(s.d, s.d);
+    s.a = dd - rd * rd;
+    s.b = glm::dot(s.o, s.d) - r * rd;
+    s.c = glm::dot(s.o, s.o) - r * r;
+    // b^2 - a c without the squares that cancel: Lagrange's identity for o and d, and for both with (r, rd).
+    const Vec3 across = glm::cross(s.o, s.d);
+    const Vec3 mixed = r * s.d - rd * s.o;
+    s.discriminant = glm::dot(mixed, mixed) - glm::dot(across, across);
+    return s;
+}
+
+// The closed cone is convex: inside both the side and the slab between the lids. Taking the stretch of the
+// ray in it, not single roots, leaves no gap at the rims.
+void intersect_closed_cone(const ConeSide& s, double height, Hits& out) {
+    Stretch inside;
+    if (!inside.cut_slab(s.oz, s.dz, 0, height, s.axis)) return;
+    const Roots roots = quadratic_roots(s.a, s.b, s.c, s.discriminant);
+    if (roots.count == 0) {
+        // No crossing: along the axis of a cylinder, or (by rounding) through the tip of a cone.
+        if (s.a < 0 || (s.a == 0 && s.c <= 0)) inside.add_to(out);
+        return;
+    }
+    double low = polish(
+        roots.low, [&](double t) { return s.value(t); }, [&](double t) { return s.derivative(t); });
+    double high = polish(
+        roots.high, [&](double t) { return s.value(t); }, [&](double t) { return s.derivative(t); });
+    if (roots.count == 1) (s.b > 0 ? low : high) = s.b > 0 ? -infinity : infinity;
+    if (low > high) std::swap(low, high);
+    const auto normal = [&](double t) { return std::isfinite(t) ? s.normal(t) : Vec3(0); };
+    if (s.a >= 0) {
+        inside.cut(low, normal(low), high, normal(high));
+        return inside.add_to(out);
+    }
+    // Between the roots the line is outside; before and behind it is inside the two halves of the double
+    // cone, of which one at most lies between the lids.
+    Stretch before = inside, behind = inside;
+    before.cut(-infinity, Vec3(0), low, normal(low));
+    behind.cut(high, normal(high), infinity, Vec3(0));
+    const auto length = [](const Stretch& x) { return x.empty() ? -1 : x.leave - x.enter; };
+    (length(before) >= length(behind) ? before : behind).add_to(out);
+}
+
+void intersect_cone(const Cone& cone, Hits& out) {
+    const double height = glm::length(cone.cap - cone.base);
+    if (!(height > 0) || !(std::max(cone.base_radius, cone.cap_radius) > 0)) return;
+    const ConeSide s = make_cone_side(cone, height, out.ray);
+    if (!cone.open) return intersect_closed_cone(s, height, out);
+    const Roots roots = quadratic_roots(s.a, s.b, s.c, s.discriminant);
+    for (int i = 0; i < roots.count; ++i) {
+        const double t = polish(
+            i == 0 ? roots.low : roots.high, [&](double x) { return s.value(x); },
+            [&](double x) { return s.derivative(x); });
+        const double z = s.oz + t * s.dz;
+        if (z >= 0 && z <= height) out.add(t, s.normal(t), s.uv(t, height));
+    }
+}
+
+// ---- torus
+// ----------------------------------------------------------------------------------------------------
+
+// f(t) = (|p|^2 + R^2 - r^2)^2 - 4 R^2 (x^2 + z^2), written as a product of distances where that cancels
+// less: with q = hypot(x, z): f = (q^2 + y^2 + R^2 - r^2 - 2 R q)(... + 2 R q) = ((q - R)^2 + y^2 - r^2)((q +
+// R)^2 + y^2 - r^2).
+struct TorusAlongRay {
+    double major, minor;
+    Vec3 o, d; // d unit
+
+    double value(double t) const {
+        const Vec3 p = o + t * d;
+        const double q = std::hypot(p.x, p.z), y2 = p.y * p.y - minor * minor;
+        return ((q - major) * (q - major) + y2) * ((q + major) * (q + major) + y2);
+    }
+    Vec3 gradient(Vec3 p) const {
+        const double k = glm::dot(p, p) + major * major - minor * minor;
+        return 4.0 * Vec3(p.x * (k - 2 * major * major), p.y * k, p.z * (k - 2 * major * major));
+    }
+};
+
+// The roots in [low, high] of f, given those of its derivative: f is monotone between them, so each sign
+// change is closed in by bisection with Newton steps [the classic safeguarded scheme, e.g. Press et al.
+// 2007, 9.4].
+template <class F, class D>
+int roots_between(const double* critical, int critical_count, double low, double high, F f, D derivative,
+                  double* roots) {
+    int count = 0;
+    double a = low, fa = f(a);
+    for (int i = 0; i <= critical_count; ++i) {
+        const double b = i < critical_count ? std::clamp(critical[i], low, high) : high;
+        const double fb = f(b);
+        if (b > a && (fa < 0) != (fb < 0)) {
+            double x0 = a, x1 = b, x = 0.5 * (a + b);
+            for (int step = 0; step < 100; ++step) {
+                const double fx = f(x);
+                ((fx < 0) == (fa < 0) ? x0 : x1) = x;
+                const double slope = derivative(x);
+                double next = slope != 0 ? x - fx / slope : x0;
+                if (!(next > x0 && next < x1)) next = 0.5 * (x0 + x1);
+                if (next == x || x1 - x0 <= 0) break;
+                const double moved = std::abs(next - x);
+                x = next;
+                if (moved <= 1e-16 * std::abs(x)) break;
+            }
+            roots[count++] = x;
+        }
+        a = b;
+        fa = fb;
+    }
+    return count;
+}
+
+void intersect_torus(const Torus& torus, Hits& out) {
+    const double speed = glm::length(out.ray.direction);
+    const double outer = torus.major + std::abs(torus.minor);
+    if (!(speed > 0) || !(outer > 0) || torus.minor == 0) return;
+    // In units of the outer radius, from the point closest to the centre, along a unit direction: then all
+    // numbers in the polynomial are of order one.
+    const Vec3 unit = out.ray.direction / speed;
+    const double nearest = -glm::dot(out.ray.origin, unit);
+    TorusAlongRay f{torus.major / outer, std::abs(torus.minor) / outer,
+                    (out.ray.origin + nearest * unit) / outer, unit};
+    const double reach2 = 1 - glm::dot(f.o, f.o);
+    if (!(reach2 > 0)) return;
+    const double reach = std::sqrt(reach2) * (1 + 1e-12);
+    const double k = glm::dot(f.o, f.o) + f.major * f.major - f.minor * f.minor, od = glm::dot(f.o, f.d);
+    const double m4 = 4 * f.major * f.major;
+    const double c3 = 4 * od, c2 = 2 * k + 4 * od * od - m4 * (f.d.x * f.d.x + f.d.z * f.d.z),
+                 c1 = 4 * k * od - 2 * m4 * (f.o.x * f.d.x + f.o.z * f.d.z);
+    const auto first = [&](double t) { return ((4 * t + 3 * c3) * t + 2 * c2) * t + c1; };
+    const auto second = [&](double t) { return (12 * t + 6 * c3) * t + 2 * c2; };
+    const Roots inflections = quadratic_roots(12, 3 * c3, 2 * c2, 9 * c3 * c3 - 24 * c2);
+    const double bends[2] = {inflections.low, inflections.high};
+    double critical[3], roots[4];
+    const int critical_count =
+        roots_between(bends, inflections.count, -reach, reach, first, second, critical);
+    const int count = roots_between(
+        critical, critical_count, -reach, reach, [&](double t) { return f.value(t); }, first, roots);
+    for (int i = 0; i < count; ++i) {
+        const Vec3 p = f.o + roots[i] * f.d;
+        const double q = std::hypot(p.x, p.z) - f.major;
+        out.add((nearest + roots[i] * outer) / speed, f.gradient(p), {turn_of(p.x, p.z), turn_of(q, p.y)});
+    }
+}
+
+} // namespace
+
+Bounds shape_bounds(const Shape& shape) {
+    return std::visit(
+        Overload{
+            [](const Sphere& s) {
+                return Bounds{s.center - std::abs(s.radius), s.center + std::abs(s.radius)};
+            },
+            [](const Box& b) {
+                return Bounds{glm::min(b.low, b.high), glm::max(b.low, b.high)};
+            },
+            [](const Plane&) { return everywhere; },
+            [](const Cylinder& c) { return cone_bounds(c.base, c.cap, c.radius, c.radius); },
+            [](const Cone& c) { return cone_bounds(c.base, c.cap, c.base_radius, c.cap_radius); },
+            [](const Torus& t) {
+                const double minor = std::abs(t.minor), outer = std::abs(t.major) + minor;
+                return Bounds{{-outer, -minor, -outer}, {outer, minor, outer}};
+            },
+            [](const Disc& d) {
+                const Vec3 e = std::abs(d.radius) * disc_extent(d.normal);
+                return Bounds{d.center - e, d.center + e};
+            },
+            [](const Mesh& m) { return m.data ? mesh_bounds(*m.data) : Bounds{}; },
+            [](const BicubicPatch& p) {
+                Bounds b;
+                for (const Vec3& point : p.points) b = merge(b, point);
+                return b;
+            },
+        },
+        shape);
+}
+
+const char* shape_name(const Shape& shape) {
+    return std::visit(Overload{
+                          [](const Sphere&) { return "sphere"; },
+                          [](const Box&) { return "box"; },
+                          [](const Plane&) { return "plane"; },
+                          [](const Cylinder&) { return "cylinder"; },
+                          [](const Cone&) { return "cone"; },
+                          [](const Torus&) { return "torus"; },
+                          [](const Disc&) { return "disc"; },
+                          [](const Mesh&) { return "mesh"; },
+                          [](const BicubicPatch&) { return "bicubic_patch"; },
+                      },
+                      shape);
+}
+
+int intersect_shape(const Shape& shape, const Ray& ray, std::array<ShapeHit, 4>& hits) {
+    Hits out{ray, hits};
+    std::visit(Overload{
+                   [&](const Sphere& s) { intersect_sphere(s, out); },
+                   [&](const Box& b) { intersect_box(b, out); },
+                   [&](const Plane& p) { intersect_plane(p, out); },
+                   [&](const Cylinder& c) {
+                       intersect_cone({c.base, c.cap, c.radius, c.radius, c.open}, out);
+                   },
+                   [&](const Cone& c) { intersect_cone(c, out); },
+                   [&](const Torus& t) { intersect_torus(t, out); },
+                   [&](const Disc& d) { intersect_disc(d, out); },
+                   [](const Mesh&) {},
+                   [](const BicubicPatch&) {},
+               },
+               shape);
+    return out.count;
+}
+
+} // namespace pnr
