@@ -41,7 +41,8 @@ const Mesh* mesh_of(const GeometryItem& item) {
 }
 
 Bounds form_bounds(const GeometryItem& item) {
-    if (const auto* h = std::get_if<Hemisphere>(&item.form)) return shape_bounds(Sphere{h->center, h->radius});
+    if (const auto* h = std::get_if<Hemisphere>(&item.form))
+        return shape_bounds(Sphere{h->center, h->radius});
     if (const auto* p = std::get_if<Parallelogram>(&item.form)) {
         Bounds b = merge(Bounds{}, p->corner);
         b = merge(merge(b, p->corner + p->u), p->corner + p->v);
@@ -94,7 +95,8 @@ struct WoopRay {
     }
 };
 
-bool hit_triangle(const WoopRay& r, const Triangle& tri, double t_min, double t_max, double& t, Vec3& weights) {
+bool hit_triangle(const WoopRay& r, const Triangle& tri, double t_min, double t_max, double& t,
+                  Vec3& weights) {
     const Vec3 a = Vec3(tri.a) - r.origin, b = Vec3(tri.b) - r.origin, c = Vec3(tri.c) - r.origin;
     const double ax = a[r.x] - r.sx * a[r.z], ay = a[r.y] - r.sy * a[r.z];
     const double bx = b[r.x] - r.sx * b[r.z], by = b[r.y] - r.sy * b[r.z];
@@ -121,7 +123,8 @@ bool hits_box(const Bounds& box, const Ray& r, const Vec3& inverse, double t_max
     return t0 <= t1;
 }
 
-void build_nodes(Geometry& g, std::vector<Bounds>& boxes, std::uint32_t node, std::uint32_t first, std::uint32_t count) {
+void build_nodes(Geometry& g, std::vector<Bounds>& boxes, std::uint32_t node, std::uint32_t first,
+                 std::uint32_t count) {
     Bounds all, centers;
     for (std::uint32_t i = first; i < first + count; ++i) {
         all = merge(all, boxes[i]);
@@ -133,9 +136,10 @@ void build_nodes(Geometry& g, std::vector<Bounds>& boxes, std::uint32_t node, st
     if (count <= 4 || !(size[axis] > 0)) return;
     std::vector<std::uint32_t> order(count);
     for (std::uint32_t i = 0; i < count; ++i) order[i] = first + i;
-    std::nth_element(order.begin(), order.begin() + count / 2, order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return boxes[a].low[axis] + boxes[a].high[axis] < boxes[b].low[axis] + boxes[b].high[axis];
-    });
+    std::nth_element(
+        order.begin(), order.begin() + count / 2, order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return boxes[a].low[axis] + boxes[a].high[axis] < boxes[b].low[axis] + boxes[b].high[axis];
+        });
     std::vector<Bounds> sorted_boxes(count);
     std::vector<Primitive> sorted_primitives(count);
     std::vector<Triangle> sorted_triangles(count);
@@ -165,8 +169,9 @@ struct Found {
 
 void try_shape(const Geometry& g, std::uint32_t index, const Ray& ray, Found& best) {
     const GeometryItem& item = g.items[index];
-    const Ray own{transform_point(item.to_world.inverse, ray.origin), transform_vector(item.to_world.inverse, ray.direction),
-                  ray.t_min, std::nextafter(best.t, infinity)};
+    const Ray own{transform_point(item.to_world.inverse, ray.origin),
+                  transform_vector(item.to_world.inverse, ray.direction), ray.t_min,
+                  std::nextafter(best.t, infinity)};
     std::array<ShapeHit, 4> hits;
     if (intersect_form(item, own, hits) == 0) return;
     if (hits[0].t > best.t || (hits[0].t == best.t && g.first_primitive[index] > best.primitive)) return;
@@ -203,7 +208,9 @@ Found trace(const Geometry& g, const Ray& ray, RayKind kind, bool any) {
             } else {
                 double t;
                 Vec3 weights;
-                if (!hit_triangle(woop, g.triangles[i], ray.t_min, std::nextafter(best.t, infinity), t, weights)) continue;
+                if (!hit_triangle(woop, g.triangles[i], ray.t_min, std::nextafter(best.t, infinity), t,
+                                  weights))
+                    continue;
                 const std::uint32_t number = g.first_primitive[p.item] + p.triangle;
                 if (t > best.t || (t == best.t && number > best.primitive)) continue;
                 best = {t, p.item, number, i, {}, weights, true};
@@ -247,9 +254,9 @@ Bounds item_bounds(const GeometryItem& item) {
     if (!std::isfinite(own.low.x) || !std::isfinite(own.high.x)) return {Vec3(-infinity), Vec3(infinity)};
     Bounds world;
     for (int corner = 0; corner < 8; ++corner)
-        world = merge(world, transform_point(item.to_world.matrix,
-                                             {corner & 1 ? own.high.x : own.low.x, corner & 2 ? own.high.y : own.low.y,
-                                              corner & 4 ? own.high.z : own.low.z}));
+        world = merge(world, transform_point(item.to_world.matrix, {corner & 1 ? own.high.x : own.low.x,
+                                                                    corner & 2 ? own.high.y : own.low.y,
+                                                                    corner & 4 ? own.high.z : own.low.z}));
     return world;
 }
 
@@ -301,7 +308,8 @@ GeometryStats geometry_stats(const Geometry& g) {
     GeometryStats s;
     for (const Primitive& p : g.primitives) ++(mesh_of(g.items[p.item]) ? s.triangles : s.shapes);
     s.unbounded = static_cast<std::int64_t>(g.unbounded.size());
-    const double bytes = static_cast<double>(g.nodes.size() * sizeof(Node) + g.primitives.size() * (sizeof(Primitive) + sizeof(Triangle)));
+    const double bytes = static_cast<double>(g.nodes.size() * sizeof(Node) +
+                                             g.primitives.size() * (sizeof(Primitive) + sizeof(Triangle)));
     s.bytes_per_triangle = s.triangles ? bytes / static_cast<double>(s.triangles) : 0;
     return s;
 }
@@ -334,7 +342,7 @@ bool is_occluded(const Geometry& g, const Ray& ray, RayKind kind) { return trace
 
 MeshData tessellate(const BicubicPatch& patch) {
     const int rows = 1 << std::clamp(patch.v_steps, 0, 10), columns = 1 << std::clamp(patch.u_steps, 0, 10);
-    const auto basis = [](double t, double (&b)[4], double (&d)[4]) {
+    const auto basis = [](double t, double(&b)[4], double(&d)[4]) {
         const double s = 1 - t;
         b[0] = s * s * s, b[1] = 3 * s * s * t, b[2] = 3 * s * t * t, b[3] = t * t * t;
         d[0] = -3 * s * s, d[1] = 3 * s * s - 6 * s * t, d[2] = 6 * s * t - 3 * t * t, d[3] = 3 * t * t;
@@ -359,7 +367,9 @@ MeshData tessellate(const BicubicPatch& patch) {
             mesh.uvs.emplace_back(static_cast<double>(column) / columns, static_cast<double>(row) / rows);
         }
     }
-    const auto at = [&](int row, int column) { return static_cast<std::uint32_t>(row * (columns + 1) + column); };
+    const auto at = [&](int row, int column) {
+        return static_cast<std::uint32_t>(row * (columns + 1) + column);
+    };
     for (int row = 0; row < rows; ++row)
         for (int column = 0; column < columns; ++column) {
             mesh.triangles.push_back({at(row, column), at(row, column + 1), at(row + 1, column + 1)});

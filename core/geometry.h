@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What build_world hands to the rays: meshes and analytic shapes with their place in world space, and the BVH over them.
+// What build_world hands to the rays: meshes and analytic shapes with their place in world space, and the BVH
+// over them.
 #pragma once
 
 #include "core/shape.h"
@@ -13,7 +14,8 @@
 
 namespace pnr {
 
-// Emitters that are no shape of the language. They live here in double, so that a light's sampled points lie on them.
+// Emitters that are no shape of the language. They live here in double, so that a light's sampled points lie
+// on them.
 struct Hemisphere { // the half of the sphere on the side of `axis` (unit), without a lid
     Vec3 center{0};
     double radius = 1;
@@ -25,15 +27,18 @@ struct Parallelogram { // corner + a u + b v, a and b in [0, 1]; the normal is c
 
 // One leaf of the scene. Its index is the hit's `surface`.
 struct GeometryItem {
-    std::variant<Shape, Hemisphere, Parallelogram> form; // a Mesh has its data; a BicubicPatch is not taken: see tessellate
+    std::variant<Shape, Hemisphere, Parallelogram>
+        form; // a Mesh has its data; a BicubicPatch is not taken: see tessellate
     Transform to_world;
-    bool inverse = false;          // normals point the other way
-    std::uint8_t hidden_from = 0;  // 1 << RayKind for each kind of ray that passes through
+    bool inverse = false;         // normals point the other way
+    std::uint8_t hidden_from = 0; // 1 << RayKind for each kind of ray that passes through
 };
-inline std::uint8_t ray_bit(RayKind kind) { return static_cast<std::uint8_t>(1u << static_cast<unsigned>(kind)); }
+inline std::uint8_t ray_bit(RayKind kind) {
+    return static_cast<std::uint8_t>(1u << static_cast<unsigned>(kind));
+}
 
-// Builds the BVH. World space has the scene's centre as its origin and the given radius. Degenerate triangles and shapes
-// are kept out: nothing hits them.
+// Builds the BVH. World space has the scene's centre as its origin and the given radius. Degenerate triangles
+// and shapes are kept out: nothing hits them.
 std::shared_ptr<const Geometry> make_geometry(std::vector<GeometryItem> items, double radius);
 
 struct GeometryStats {
@@ -48,7 +53,8 @@ bool is_occluded(const Geometry& geometry, const Ray& ray, RayKind kind);
 // Bounds of an item in world space; infinite for unbounded shapes, empty for empty ones.
 Bounds item_bounds(const GeometryItem& item);
 
-// The patch as triangles with smooth normals, in its own space: 2^u_steps by 2^v_steps cells [POV-Ray 3.7 manual 3.4.5.2.2].
+// The patch as triangles with smooth normals, in its own space: 2^u_steps by 2^v_steps cells [POV-Ray 3.7
+// manual 3.4.5.2.2].
 MeshData tessellate(const BicubicPatch& patch);
 
 } // namespace pnr

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A reader's place in the bytes of a mesh file, and the checks that all formats share. Every way out of the bytes is a
-// SceneError; nothing is allocated on a header's word alone.
+// A reader's place in the bytes of a mesh file, and the checks that all formats share. Every way out of the
+// bytes is a SceneError; nothing is allocated on a header's word alone.
 #pragma once
 
 #include "core/shape.h"
@@ -31,7 +31,9 @@ struct MeshCursor {
     }
 
     // ---- text
-    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == ',' || c == '\v' || c == '\f'; }
+    static bool is_blank(char c) {
+        return c == ' ' || c == '\t' || c == '\r' || c == ',' || c == '\v' || c == '\f';
+    }
     void skip_blanks() {
         while (at != end && is_blank(*at)) ++at;
     }
@@ -62,7 +64,8 @@ struct MeshCursor {
             if constexpr (std::is_floating_point_v<T>) value = 0; // underflow is 0; overflow is caught below
             const char* p = at;
             while (p != stop && *p != 'e' && *p != 'E') ++p;
-            if (!std::is_floating_point_v<T> || p == stop || p + 1 == stop || p[1] != '-') fail("a number is too large");
+            if (!std::is_floating_point_v<T> || p == stop || p + 1 == stop || p[1] != '-')
+                fail("a number is too large");
         } else if (error != std::errc()) {
             return false;
         }
@@ -73,7 +76,8 @@ struct MeshCursor {
     T need_number(const char* what) {
         skip_space();
         T value{};
-        if (!number(value)) fail(at == end ? "the file ends in the middle of its data" : std::string("expected ") + what);
+        if (!number(value))
+            fail(at == end ? "the file ends in the middle of its data" : std::string("expected ") + what);
         return value;
     }
     Vec3 need_point() {
@@ -87,7 +91,8 @@ struct MeshBuilder {
     MeshData mesh;
 
     void add_polygon(const std::uint32_t* corners, std::size_t count) {
-        for (std::size_t i = 2; i < count; ++i) mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
+        for (std::size_t i = 2; i < count; ++i)
+            mesh.triangles.push_back({corners[0], corners[i - 1], corners[i]});
     }
 };
 

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/world.h"
+
+#include "core/geometry.h"
+#include "core/image_io.h"
+#include "core/mesh_io.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace pnr {
+
+namespace {
+
+// ---- checks
+// ---------------------------------------------------------------------------------------------------
+
+bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_finite(const Transform& t) {
+    for (int column = 0; column < 4; ++column)
+        if (!is_finite(Vec3(t.matrix[column])) || !is_finite(Vec3(t.inverse[column]))) return false;
+    return true;
+}
+
+template <class... F>
+struct Overload : F... {
+    using F::operator()...;
+};
+
+bool is_finite(const Shape& shape) {
+    return std::visit(
+        Overload{
+            [](const Sphere& s) { return is_finite(s.center) && std::isfinite(s.radius); },
+            [](const Box& b) { return is_finite(b.low) && is_finite(b.high); },
+            [](const Plane& p) { return is_finite(p.normal) && std::isfinite(p.distance); },
+            [](const Cylinder& c) {
+                return is_finite(c.base) && is_finite(c.cap) && std::isfinite(c.radius);
+            },
+            [](const Cone& c) {
+                return is_finite(c.base) && is_finite(c.cap) && std::isfinite(c.base_radius + c.cap_radius);
+            },
+            [](const Torus& t) { return std::isfinite(t.major + t.minor); },
+            [](const Disc& d) {
+                return is_finite(d.center) && is_finite(d.normal) && std::isfinite(d.radius) &&
+                       !std::isnan(d.hole);
+            },
+            [](const Mesh& m) {
+                return !m.data || std::all_of(m.data->positions.begin(), m.data->positions.end(),
+                                              [](Vec3f p) { return is_finite(Vec3(p)); });
+            },
+            [](const BicubicPatch& p) {
+                return std::all_of(p.points.begin(), p.points.end(), [](Vec3 q) { return is_finite(q); });
+            },
+        },
+        shape);
+}
+
+void require(bool fine, const SourceRef& where, const char* text) {
+    if (!fine) throw SceneError(where, text);
+}
+
+// ---- meshes and pictures
+// --------------------------------------------------------------------------------------
+
+// Each file is read once, each mesh smoothed once, however many objects show it.
+struct Assets {
+    std::map<std::string, std::shared_ptr<const MeshData>> meshes;
+    std::map<const MeshData*, std::shared_ptr<const MeshData>> smooth;
+    std::map<std::string, std::shared_ptr<const Image<glm::vec4>>> images;
+
+    std::shared_ptr<const MeshData> mesh(const Mesh& said) {
+        std::shared_ptr<const MeshData> data = said.data;
+        if (!data) {
+            auto& entry = meshes[said.file];
+            if (!entry) entry = std::make_shared<const MeshData>(read_mesh(said.file, said.said_at));
+            data = entry;
+        }
+        check(*data, said);
+        return said.smooth && data->normals.empty() ? smoothed(data) : data;
+    }
+
+    std::shared_ptr<const Image<glm::vec4>> image(const ImagePattern& said) {
+        auto& entry = images[said.file];
+        if (!entry) entry = std::make_shared<const Image<glm::vec4>>(read_image(said.file));
+        require(!entry->empty(), said.said_at, "the picture is empty");
+        return entry;
+    }
+
+private:
+    static void check(const MeshData& data, const Mesh& said) {
+        const auto fits = [&](const auto& list, std::size_t count) {
+            if (!list.empty() && list.size() != data.triangles.size()) return false;
+            return std::all_of(list.begin(), list.end(),
+                               [&](const auto& t) { return t[0] < count && t[1] < count && t[2] < count; });
+        };
+        require(fits(data.triangles, data.positions.size()), said.said_at,
+                "a face names a vertex that does not exist");
+        require(fits(data.normal_triangles, data.normals.size()) &&
+                    data.normals.empty() == data.normal_triangles.empty(),
+                said.said_at, "a face names a normal that does not exist");
+        require(fits(data.uv_triangles, data.uvs.size()) && data.uvs.empty() == data.uv_triangles.empty(),
+                said.said_at, "a face names a texture point that does not exist");
+    }
+
+    std::shared_ptr<const MeshData> smoothed(const std::shared_ptr<const MeshData>& data) {
+        auto& entry = smooth[data.get()];
+        if (!entry) {
+            MeshData copy = *data;
+            copy.normals = area_weighted_normals(copy.positions, copy.triangles);
+            copy.normal_triangles = copy.triangles;
+            entry = std::make_shared<const MeshData>(std::move(copy));
+            originals.push_back(data); // its address is a key: it must not be given to another mesh
+        }
+        return entry;
+    }
+    std::vector<std::shared_ptr<const MeshData>> originals;
+};
+
+// ---- flattening
+// -----------------------------------------------------------------------------------------------
+
+// What a child gets from its parents where it says nothing itself.
+struct Inherited {
+    const Texture* texture = nullptr;
+    const Interior* interior = nullptr;
+    const PhotonRoles* photons = nullptr;
+    const PaintWord* npr = nullptr;
+    int object = 0;
+    bool no_shadow = false, no_image = false, no_reflection = false;
+};
+
+struct Builder {
+    const Scene& scene;
+    World world;
+    Assets assets;
+    std::vector<GeometryItem> items; // in scene space until the offset is known
+
+    int number_object(const Object& object, const PaintWord* word) {
+        WorldObject entry;
+        entry.name = !object.name.empty() ? object.name : object.shape ? shape_name(*object.shape) : "union";
+        entry.said_at = object.said_at;
+        entry.npr = word && word->on;
+        if (word) entry.paint = word->style;
+        world.objects.push_back(std::move(entry));
+        return static_cast<int>(world.objects.size()) - 1;
+    }
+
+    int add_material(const Inherited& from) {
+        if (!from.texture && !from.interior && !from.photons) return 0;
+        Material material;
+        if (from.texture) {
+            material.pigment = from.texture->pigment;
+            material.finish = from.texture->finish;
+        }
+        if (from.interior) material.interior = *from.interior;
+        if (from.photons) material.photons = *from.photons;
+        if (auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern))
+            picture->image = assets.image(*picture);
+        world.materials.push_back(std::move(material));
+        return static_cast<int>(world.materials.size()) - 1;
+    }
+
+    void add_item(GeometryItem item, Surface surface) {
+        if (surface.no_image) item.hidden_from |= ray_bit(RayKind::camera);
+        if (surface.no_reflection) item.hidden_from |= ray_bit(RayKind::specular);
+        if (surface.no_shadow) item.hidden_from |= ray_bit(RayKind::shadow);
+        items.push_back(std::move(item));
+        world.surfaces.push_back(surface);
+    }
+
+    void add_object(const Object& object, Inherited from, bool top) {
+        require(is_finite(object.transform), object.said_at, "a transform is not finite");
+        if (object.texture) from.texture = &*object.texture;
+        if (object.interior) from.interior = &*object.interior;
+        if (object.photons) from.photons = &*object.photons;
+        if (object.npr) from.npr = &*object.npr;
+        if (top || object.npr) from.object = number_object(object, from.npr);
+        from.no_shadow |= object.no_shadow;
+        from.no_image |= object.no_image;
+        from.no_reflection |= object.no_reflection;
+        if (object.shape) add_shape(object, from);
+        for (const Object& child : object.children) add_object(child, from, false);
+    }
+
+    void add_shape(const Object& object, const Inherited& from) {
+        require(is_finite(*object.shape), object.said_at, "a coordinate is not finite");
+        GeometryItem item;
+        item.to_world = object.transform;
+        item.inverse = object.inverse;
+        if (const auto* mesh = std::get_if<Mesh>(&*object.shape)) {
+            Mesh loaded = *mesh;
+            loaded.data = assets.mesh(*mesh);
+            item.form = Shape(std::move(loaded));
+        } else if (const auto* patch = std::get_if<BicubicPatch>(&*object.shape)) {
+            Mesh flat;
+            flat.data = std::make_shared<const MeshData>(tessellate(*patch));
+            flat.smooth = true;
+            item.form = Shape(std::move(flat));
+        } else {
+            item.form = *object.shape;
+        }
+        Surface surface;
+        surface.object = from.object;
+        surface.material = add_material(from);
+        surface.no_shadow = from.no_shadow;
+        surface.no_image = from.no_image;
+        surface.no_reflection = from.no_reflection;
+        add_item(std::move(item), surface);
+    }
+
+    // The emitting area of a light, with the light's position as the origin of its own space.
+    void add_emitter(const LightSource& light, int index) {
+        const Emitter& e = *light.emitter;
+        require(is_finite(e.axis) && is_finite(e.u) && is_finite(e.v) && std::isfinite(e.radius),
+                light.said_at, "the emitter is not finite");
+        GeometryItem item;
+        item.to_world = translation(light.position);
+        switch (e.shape) {
+        case EmitterShape::sphere:
+            item.form = Shape(Sphere{Vec3(0), e.radius});
+            break;
+        case EmitterShape::hemisphere:
+            item.form = Hemisphere{Vec3(0), e.radius, e.axis};
+            break;
+        case EmitterShape::disc:
+            item.form = Shape(Disc{Vec3(0), e.axis, e.radius, 0});
+            break;
+        case EmitterShape::rectangle:
+            item.form = Parallelogram{-0.5 * (e.u + e.v), e.u, e.v};
+            break;
+        }
+        Surface surface;
+        surface.light = index;
+        surface.no_image = light.no_image;
+        add_item(std::move(item), surface);
+    }
+
+    Bounds bounded() const;
+    void move_to_center();
+    void find_object_bounds(const std::vector<Bounds>& boxes);
+};
+
+bool is_bounded(const Bounds& b) { return !is_empty(b) && is_finite(b.low) && is_finite(b.high); }
+
+// All that has an extent: bounded shapes and the lights; the camera alone where there is nothing else.
+Bounds Builder::bounded() const {
+    Bounds all;
+    for (const GeometryItem& item : items) {
+        const Bounds b = item_bounds(item);
+        if (is_bounded(b)) all = merge(all, b);
+    }
+    for (const LightSource& light : scene.lights) all = merge(all, light.position);
+    return is_empty(all) ? merge(all, scene.camera.location) : all;
+}
+
+void Builder::move_to_center() {
+    const Bounds all = bounded();
+    world.offset = 0.5 * all.low + 0.5 * all.high;
+    const double radius = 0.5 * glm::length(all.high - all.low);
+    world.radius = radius > 0 ? radius : 1;
+    const Transform move = translation(-world.offset);
+    for (GeometryItem& item : items) item.to_world = then(item.to_world, move);
+    for (Material& material : world.materials)
+        material.pigment.transform = then(material.pigment.transform, move);
+    for (WorldObject& object : world.objects) {
+        object.paint.field_point -= world.offset;
+        for (Seed& seed : object.paint.seeds) seed.position -= world.offset;
+    }
+    world.camera = scene.camera;
+    world.camera.location -= world.offset;
+    for (LightSource light : scene.lights) {
+        light.position -= world.offset;
+        light.point_at -= world.offset;
+        world.lights.push_back(make_light(light));
+    }
+}
+
+void Builder::find_object_bounds(const std::vector<Bounds>& boxes) {
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        Bounds& b = world.objects[static_cast<std::size_t>(world.surfaces[i].object)].bounds;
+        b = merge(b, boxes[i]);
+    }
+}
+
+bool is_specular(const Material& material) {
+    if (material.photons.specular_probability.value_or(0) > 0) return true;
+    if (max_component(material.finish.reflection.max) > 0 ||
+        max_component(material.finish.reflection.min) > 0)
+        return true;
+    if (const auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern))
+        return picture->once || std::any_of(picture->image->pixels.begin(), picture->image->pixels.end(),
+                                            [](const glm::vec4& p) { return p.w < 1; });
+    return std::any_of(material.pigment.map.begin(), material.pigment.map.end(), [](const ColorStop& stop) {
+        return stop.color.filter > 0 || stop.color.transmit > 0;
+    });
+}
+
+Illumination choose_illumination(const Scene& scene, const World& world, const PhotonSettings& photons) {
+    const bool emitters = std::any_of(scene.lights.begin(), scene.lights.end(),
+                                      [](const LightSource& light) { return light.emitter.has_value(); });
+    if (emitters || world.has_paint || scene.radiosity || photons.global.value_or(false))
+        return Illumination::photon_mapped;
+    return photons.wanted ? Illumination::caustics : Illumination::raytraced;
+}
+
+void check_lights_and_camera(const Scene& scene) {
+    for (const LightSource& light : scene.lights)
+        require(is_finite(light.position) && is_finite(light.point_at) && is_finite(Vec3(light.color)),
+                light.said_at, "the light is not finite");
+    const Camera& c = scene.camera;
+    require(is_finite(c.location) && is_finite(c.direction) && is_finite(c.right) && is_finite(c.up), {},
+            "the camera is not finite");
+}
+
+} // namespace
+
+World build_world(const Scene& scene, const Settings& settings) {
+    check_lights_and_camera(scene);
+    Builder builder{scene, {}, {}, {}};
+    World& world = builder.world;
+    world.objects.emplace_back();
+    world.materials.emplace_back();
+    for (const Object& object : scene.objects) builder.add_object(object, {}, true);
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        if (scene.lights[i].emitter) builder.add_emitter(scene.lights[i], static_cast<int>(i));
+    builder.move_to_center();
+    std::vector<Bounds> boxes;
+    for (const GeometryItem& item : builder.items) boxes.push_back(item_bounds(item));
+    builder.find_object_bounds(boxes);
+    world.background = scene.background;
+    world.ambient_light = scene.ambient_light;
+    world.has_paint =
+        std::any_of(world.objects.begin(), world.objects.end(), [](const WorldObject& o) { return o.npr; });
+    world.has_specular = std::any_of(world.materials.begin(), world.materials.end(), is_specular);
+    world.illumination = choose_illumination(scene, world, settings.photons);
+    world.geometry = make_geometry(std::move(builder.items), world.radius);
+    return std::move(world);
+}
+
+// ---- rays
+// -----------------------------------------------------------------------------------------------------
+
+std::optional<Hit> closest_hit(const World& world, const Ray& ray, RayKind kind) {
+    return closest_hit(*world.geometry, ray, kind);
+}
+
+bool is_occluded(const World& world, const Ray& ray, RayKind kind) {
+    return is_occluded(*world.geometry, ray, kind);
+}
+
+namespace {
+
+// Off the surface, to the side of the direction: once the bound to be beyond the true surface, once more for
+// the rounding of whoever intersects that surface from here.
+Vec3 off_surface(const Hit& hit, Vec3 direction) {
+    const double side = glm::dot(direction, hit.normal) < 0 ? -1 : 1;
+    return hit.position + (2 * side * hit.error) * hit.normal;
+}
+
+} // namespace
+
+Ray leave(const Hit& hit, Vec3 direction, double t_max) {
+    return {off_surface(hit, direction), direction, 0, t_max};
+}
+
+Ray connect(const Hit& hit, Vec3 point, double point_error) {
+    const Vec3 origin = off_surface(hit, point - hit.position);
+    const Vec3 way = point - origin;
+    const double distance = glm::length(way);
+    if (!(distance > 0)) return {origin, {0, 0, 1}, 0, 0};
+    const double end = distance - 4 * (point_error + hit.error);
+    return {origin, way / distance, 0, std::max(0.0, end)};
+}
+
+} // namespace pnr
