@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "npr/maps.h"
 
+#include "npr/paint.h"
+
 namespace pnr {
 
 Vec2f axis_direction(Vec2f axis) {
@@ -14,6 +16,16 @@ Vec2f direction_axis(Vec2f d) {
     const float length2 = glm::dot(d, d);
     if (!(length2 > 0)) return {0, 0};
     return Vec2f(d.x * d.x - d.y * d.y, 2 * d.x * d.y) / length2;
+}
+
+double scaled(double pixels_at_512, int height) { return pixels_at_512 * height / 512.0; }
+
+Vec2f canonical_direction(Vec2 d) {
+    const double length = glm::length(d);
+    if (!(length > 0) || !std::isfinite(length)) return {1, 0};
+    Vec2f unit(d / length);
+    if (unit.x < 0 || (unit.x == 0 && unit.y < 0)) unit = -unit;
+    return unit + Vec2f(0); // no negative zeros
 }
 
 } // namespace pnr

@@ -20,8 +20,8 @@ struct SnappedSeed {
 struct FieldReport {
     int object = 0;
     int seeds = 0;
-    double condition = 1;    // of the RBF matrix
-    double residual = 0;     // largest angle at a seed, radians
+    double condition = 1;           // of the RBF matrix
+    double residual = 0;            // largest angle at a seed, radians
     std::vector<std::string> notes; // e.g. "seed 3: direction is along the normal; taken as ..."
 };
 
@@ -35,12 +35,12 @@ struct OrientationFields { // one per painted object, indexed by object number (
 OrientationFields make_orientation_fields(const World& world);
 const std::vector<SnappedSeed>& snapped_seeds(const OrientationField& field);
 
-// The oriented vector T at a point of the object: unit, perpendicular to `normal` within 1e-6, also where the field
-// vanishes (then some tangent). Sign is meaningless but deterministic.
+// The oriented vector T at a point of the object: unit, perpendicular to `normal` within 1e-6, also where the
+// field vanishes (then some tangent). Sign is meaningless but deterministic.
 Vec3 eval_orientation(const OrientationField& field, Vec3 position, Vec3 normal);
 
-// T at each painted photon; zero for others. For paper_mode objects the local rule: the seeds among the Q = 20..30 nearest
-// photons, Q doubled until two are found.
+// T at each painted photon; zero for others. For paper_mode objects the local rule: the seeds among the Q
+// = 20..30 nearest photons, Q doubled until two are found.
 std::vector<Vec3f> orient_photons(const World& world, const PhotonMap& map, const OrientationFields& fields,
                                   const Progress& progress = {});
 

@@ -8,22 +8,24 @@
 #include "npr/orientation.h"
 
 #include <functional>
+#include <span>
 
 namespace pnr {
 
 // Step 1 and 2 [LW10 3.2.2]: project painted photons, keep the nearest visible one a pixel, and light it.
-SparseMap make_sparse_map(const World& world, const GBuffer& gbuffer, const PhotonMap& map, const Settings& settings,
-                          const Progress& progress = {});
+SparseMap make_sparse_map(const World& world, const GBuffer& gbuffer, const PhotonMap& map,
+                          const Settings& settings, const Progress& progress = {});
 // Step 3: the 3D field at each source photon, projected to the picture.
 void orient_strokes(SparseMap& sparse, const World& world, const GBuffer& gbuffer, const PhotonMap& map,
                     std::span<const Vec3f> oriented);
-// [LW10 3.2.3]: inverse-square weights within R over sources of the same object and via; never across a silhouette.
+// [LW10 3.2.3]: inverse-square weights within R over sources of the same object and via; never across a
+// silhouette.
 InformativeMap make_informative_map(const SparseMap& sparse, const World& world, const GBuffer& gbuffer,
                                     std::uint64_t seed, const Progress& progress = {});
-// [LW10 3.2.4; Wang and Lee 2003]: noise, smoothing, impressionistic line integral convolution. Premultiplied by coverage, mix
-// and the chain's weight.
-Layer convolve(const InformativeMap& informative, const SparseMap& sparse, const World& world, const GBuffer& gbuffer,
-               std::uint64_t seed, const Progress& progress = {});
+// [LW10 3.2.4; Wang and Lee 2003]: noise, smoothing, impressionistic line integral convolution. Premultiplied
+// by coverage, mix and the chain's weight.
+Layer convolve(const InformativeMap& informative, const SparseMap& sparse, const World& world,
+               const GBuffer& gbuffer, std::uint64_t seed, const Progress& progress = {});
 
 // Radius of the informative disc of an object in pixels of this picture.
 double scaled(double pixels_at_512, int height);
