@@ -106,6 +106,7 @@ Color path_radiance(const World& world, const Ray& camera_ray, const RenderSetti
         }
         sum += throughput * found_emission(world, *hit, bsdf, from, pdf);
         const LobeChances chances = lobe_chances(bsdf);
+        if (chances.spread + chances.mirror + chances.transmit == 0) return sum;
         if (chances.spread > 0)
             sum += throughput * next_event(world, *hit, bsdf, outgoing, chances.spread, rng);
         const Step step = choose_step(bsdf, outgoing, chances, rng);
