@@ -304,6 +304,8 @@ std::shared_ptr<const Geometry> make_geometry(std::vector<GeometryItem> items, d
     return geometry;
 }
 
+std::span<const GeometryItem> geometry_items(const Geometry& geometry) { return geometry.items; }
+
 GeometryStats geometry_stats(const Geometry& g) {
     GeometryStats s;
     for (const Primitive& p : g.primitives) ++(mesh_of(g.items[p.item]) ? s.triangles : s.shapes);

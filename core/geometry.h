@@ -9,6 +9,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -46,6 +47,9 @@ struct GeometryStats {
     double bytes_per_triangle = 0; // nodes and leaf data
 };
 GeometryStats geometry_stats(const Geometry& geometry);
+
+// The leaves as they were given to make_geometry; the index is the hit's `surface`.
+std::span<const GeometryItem> geometry_items(const Geometry& geometry);
 
 std::optional<Hit> closest_hit(const Geometry& geometry, const Ray& ray, RayKind kind);
 bool is_occluded(const Geometry& geometry, const Ray& ray, RayKind kind);

@@ -53,13 +53,15 @@ void append_seed_value(OrientationField& field, const SnappedSeed& snapped, doub
 // [LW10 3.2.2], which is the tangent part of D turned round.
 void snap_seeds(const World& world, int object, OrientationField& field, FieldReport& report) {
     const PaintStyle& style = field.style;
+    if (style.seeds.empty()) return;
+    const auto surface = index_surface(world, object);
     for (std::size_t i = 0; i < style.seeds.size(); ++i) {
         const Seed& seed = style.seeds[i];
         const auto note = [&](const std::string& text) {
             report.notes.push_back(fmt::format("{}:{}:{}: seed {}: {}", seed.said_at.file, seed.said_at.line,
                                                seed.said_at.column, i + 1, text));
         };
-        const ClosestPoint closest = closest_point_on_object(world, object, seed.position);
+        const ClosestPoint closest = closest_point(*surface, seed.position);
         if (!std::isfinite(closest.distance)) {
             note("the object has no surface to snap to; left out");
             continue;
