@@ -20,9 +20,9 @@ struct Note {
 struct Diagnostic {
     Severity severity = Severity::error;
     Span span;
-    std::string message;     // lower case, no full stop, stands alone; code in backticks
+    std::string message; // lower case, no full stop, stands alone; code in backticks
     std::vector<Note> notes;
-    std::string help;        // e.g. "did you mean `sphere`?"; may be empty
+    std::string help; // e.g. "did you mean `sphere`?"; may be empty
 };
 
 // `path:line:col: error: text`, the source line, a caret and underline, then notes and help in the same form.

@@ -12,12 +12,14 @@ namespace pnr {
 using Symbol = std::uint32_t;
 
 enum class TokenKind : std::uint8_t {
-    end,         // of the input
+    end,         // of the input, or of the expression a directive asked for
     number,      // value
     string,      // text: index into the lexer's string table
     word,        // symbol: keyword or identifier
-    directive,   // `#name`; symbol is the name's keyword. Never leaves the expander.
+    directive,   // `#name`; symbol is the name's keyword, value the token to jump to. Never leaves the
+                 // expander.
     punctuation, // symbol holds the character, or two of them (first | second << 8) for <= >= !=
+    invalid, // cannot be read; symbol: index of the message in the string table. Never leaves the expander.
 };
 
 struct Token {
@@ -25,7 +27,8 @@ struct Token {
     Symbol symbol = 0;
     double value = 0;
     Span span;
-    std::uint32_t chain = 0; // the macro calls and includes it came through: index into the expander's table; 0: none
+    std::uint32_t chain =
+        0; // the macro calls and includes it came through: index into the expander's table; 0: none
 };
 
 } // namespace pnr

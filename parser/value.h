@@ -12,10 +12,10 @@
 
 namespace pnr {
 
-// POV-Ray's vectors and colours are one thing in expressions: 2 to 5 numbers. A colour is <r, g, b, filter, transmit>.
+// POV-Ray's vectors and colours are one thing in expressions: 1 to 5 numbers. A colour is <r, g, b, filter, transmit>.
 struct VectorValue {
     double v[5] = {0, 0, 0, 0, 0};
-    int size = 3;
+    int size = 3; // 1 only inside the evaluator: a scalar
     bool is_color = false; // made by a colour expression
 };
 
@@ -39,13 +39,15 @@ struct SkippedBlock {
     std::string word;
 };
 
+struct Macro; // expander.h
+
 // Blocks that can be declared; copied on use, heavy data (meshes) is shared inside.
 using DeclaredBlock = std::variant<Object, Texture, Pigment, Finish, Interior, LightSource, Camera, Transform, PaintWord,
                                    ColorMap, SaidMaterial, SkippedBlock>;
 
 struct Value {
     std::variant<std::monostate, double, VectorValue, std::string, std::shared_ptr<ArrayValue>,
-                 std::shared_ptr<const DeclaredBlock>>
+                 std::shared_ptr<const DeclaredBlock>, std::shared_ptr<const Macro>>
         data;
 };
 

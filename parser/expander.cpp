@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parser/expander.h"
+
+#include "parser/parser.h"
+
+#include <fmt/format.h>
+
+namespace pnr {
+
+namespace {
+
+// Ends a directive's expression when it stands behind a complete operand.
+bool ends_expression(Keyword name) {
+    switch (name) {
+    case "declare"_kw:
+    case "local"_kw:
+    case "undef"_kw:
+    case "macro"_kw:
+    case "include"_kw:
+    case "default"_kw:
+    case "version"_kw:
+    case "debug"_kw:
+    case "warning"_kw:
+    case "error"_kw:
+    case "fopen"_kw:
+    case "fclose"_kw:
+    case "read"_kw:
+    case "write"_kw:
+        return true;
+    default:
+        return false;
+    }
+}
+
+// Does this directive continue or close a construct that was opened before the token `start`?
+bool closes_before(const TokenFrame& frame, const Token& directive, std::uint32_t start) {
+    const Token* token = &directive;
+    if (is_opener(static_cast<Keyword>(token->symbol))) return false;
+    while (token->value != no_jump && static_cast<Keyword>(token->symbol) != "end"_kw)
+        token = &frame.tokens[static_cast<std::size_t>(token->value)];
+    if (static_cast<Keyword>(token->symbol) != "end"_kw) return false;
+    return token->value == no_jump || token->value < start;
+}
+
+Token end_token(const TokenFrame& frame) {
+    Token token = frame.tokens[frame.position < frame.end ? frame.position : frame.end];
+    token.kind = TokenKind::end;
+    token.chain = frame.chain;
+    return token;
+}
+
+const std::shared_ptr<const Macro>* macro_of(const Expander& in, Symbol symbol) {
+    if (symbol >= in.symbols.size()) return nullptr;
+    const auto& bindings = in.symbols[symbol].bindings;
+    if (bindings.empty() || bindings.back().array) return nullptr;
+    return std::get_if<std::shared_ptr<const Macro>>(&bindings.back().cell->value.data);
+}
+
+// True when the stream ends here for the directive whose expression is being read.
+bool held(const Expander& in, const TokenFrame& frame, bool behind_operand) {
+    if (in.hold.frame != in.frames.size()) return false;
+    if (frame.position == frame.end) return true;
+    const Token& token = frame.tokens[frame.position];
+    if (token.kind != TokenKind::directive) return false;
+    if (behind_operand && ends_expression(static_cast<Keyword>(token.symbol))) return true;
+    return closes_before(frame, token, in.hold.start);
+}
+
+void fill(Parser& p, bool behind_operand) {
+    Expander& in = p.in;
+    for (;;) {
+        TokenFrame& frame = in.frames.back();
+        if (in.hold.frame != 0 && held(in, frame, behind_operand)) {
+            in.buffer = end_token(frame);
+            return; // not buffered: the next look finds it again
+        }
+        if (frame.position == frame.end) {
+            if (in.frames.size() == 1) {
+                in.buffer = end_token(frame);
+                return;
+            }
+            pop_frame(p);
+            continue;
+        }
+        const Token& token = frame.tokens[frame.position++];
+        if (++in.used.tokens > in.options.budgets.tokens)
+            stop(p, token,
+                 fmt::format("the scene has more than {} tokens after expansion", in.options.budgets.tokens));
+        if (token.kind == TokenKind::directive) {
+            run_directive(p, token);
+            if (in.buffered) return;
+            continue;
+        }
+        if (token.kind == TokenKind::word) {
+            if (const auto* macro = macro_of(in, token.symbol)) {
+                Token name = token;
+                name.chain = frame.chain;
+                call_macro(p, std::shared_ptr<const Macro>(*macro), name);
+                continue;
+            }
+        }
+        in.buffer = token;
+        in.buffer.chain = frame.chain;
+        if (token.kind == TokenKind::invalid) fail(p, in.buffer, in.strings[token.symbol]);
+        in.buffered = true;
+        return;
+    }
+}
+
+std::uint32_t call_number(Expander& in, std::uint32_t parent, const Token& at, Symbol what) {
+    constexpr std::size_t most =
+        1'000'000; // deeper bookkeeping than this helps nobody: their tokens keep the parent's
+    const std::uint64_t key =
+        (static_cast<std::uint64_t>(parent) * 0x9e3779b97f4a7c15ull) ^
+        ((static_cast<std::uint64_t>(at.span.source) << 32 | at.span.begin) * 0xd1342543de82ef95ull);
+    const auto found = in.call_numbers.find(key);
+    if (found != in.call_numbers.end()) return found->second;
+    if (in.calls.size() >= most) return parent;
+    in.calls.push_back({parent, at.span, what});
+    return in.call_numbers[key] = static_cast<std::uint32_t>(in.calls.size() - 1);
+}
+
+} // namespace
+
+void fill_buffer(Parser& p) { fill(p, false); }
+
+const Token& peek_operator(Parser& p) {
+    if (!p.in.buffered) fill(p, true);
+    return p.in.buffer;
+}
+
+const Token& peek_raw(Parser& p) {
+    TokenFrame& frame = p.in.frames.back();
+    p.in.buffer = frame.position < frame.end ? frame.tokens[frame.position] : end_token(frame);
+    p.in.buffer.chain = frame.chain;
+    return p.in.buffer;
+}
+
+Token next_raw(Parser& p) {
+    const Token token = peek_raw(p);
+    if (token.kind != TokenKind::end) ++p.in.frames.back().position;
+    return token;
+}
+
+// ---- frames
+// ---------------------------------------------------------------------------------------------------------
+
+void push_text(Parser& p, std::uint32_t source, const Token& at) {
+    Expander& in = p.in;
+    const std::vector<Token>& tokens = tokens_of(in, source);
+    const std::uint32_t parent = in.frames.empty() ? 0 : in.frames.back().chain;
+    if (!in.frames.empty() && ++in.used.include_depth > in.options.budgets.include_depth)
+        stop(p, at, fmt::format("#include goes deeper than {} files", in.options.budgets.include_depth),
+             "does a file include itself? Guard it with #ifndef");
+    TokenFrame frame;
+    frame.tokens = tokens.data();
+    frame.end = static_cast<std::uint32_t>(tokens.size() - 1);
+    frame.chain = in.frames.empty() ? 0 : call_number(in, parent, at, static_cast<Symbol>("include"_kw));
+    frame.scope = static_cast<std::uint32_t>(in.frames.size());
+    frame.source = source;
+    frame.first_local = in.locals.size();
+    frame.first_loop = in.loops.size();
+    in.frames.push_back(std::move(frame));
+}
+
+void push_macro(Parser& p, const std::shared_ptr<const Macro>& macro, const Token& at) {
+    Expander& in = p.in;
+    const Budgets& budgets = in.options.budgets;
+    if (++in.used.macro_calls > budgets.macro_calls)
+        stop(p, at, fmt::format("macros are called more than {} times", budgets.macro_calls));
+    if (++in.used.macro_depth > budgets.macro_depth)
+        stop(p, at,
+             fmt::format("macro `{}` is called inside itself or others more than {} deep",
+                         in.words.text(macro->name), budgets.macro_depth),
+             "does the recursion end? It needs an #if that stops it");
+    TokenFrame frame;
+    frame.tokens = macro->tokens;
+    frame.position = macro->begin;
+    frame.end = macro->end;
+    frame.chain = call_number(in, at.chain, at, macro->name);
+    frame.scope = static_cast<std::uint32_t>(in.frames.size());
+    frame.source = macro->source;
+    frame.first_local = in.locals.size();
+    frame.first_loop = in.loops.size();
+    frame.macro = macro;
+    in.frames.push_back(std::move(frame));
+}
+
+void pop_frame(Parser& p) {
+    Expander& in = p.in;
+    TokenFrame& frame = in.frames.back();
+    while (in.locals.size() > frame.first_local) {
+        auto& bindings = in.symbols[in.locals.back()].bindings;
+        if (!bindings.empty() && bindings.back().scope == frame.scope) bindings.pop_back();
+        in.locals.pop_back();
+    }
+    in.loops.resize(frame.first_loop);
+    --(frame.macro ? in.used.macro_depth : in.used.include_depth);
+    in.frames.pop_back();
+}
+
+const std::vector<Token>& tokens_of(Expander& in, std::uint32_t source) {
+    while (in.texts.size() <= source) in.texts.emplace_back();
+    if (in.texts[source].empty()) {
+        in.texts[source] = lex(in.sources.files[source], source, in.words, in.strings);
+        in.symbols.resize(in.words.texts.size());
+    }
+    return in.texts[source];
+}
+
+// ---- names
+// ----------------------------------------------------------------------------------------------------------
+
+namespace {
+
+Value& value_at(const Binding& binding) {
+    return binding.array ? binding.array->elements[binding.element] : binding.cell->value;
+}
+
+Value deep_copy(const Value& value) {
+    const auto* array = std::get_if<std::shared_ptr<ArrayValue>>(&value.data);
+    if (!array) return value;
+    auto copy = std::make_shared<ArrayValue>();
+    copy->dimensions = (*array)->dimensions;
+    copy->elements.reserve((*array)->elements.size());
+    for (const Value& element : (*array)->elements) copy->elements.push_back(deep_copy(element));
+    return Value{std::move(copy)};
+}
+
+} // namespace
+
+Value* lookup(Expander& in, Symbol symbol) {
+    if (symbol >= in.symbols.size()) return nullptr;
+    const auto& bindings = in.symbols[symbol].bindings;
+    if (bindings.empty()) return nullptr;
+    Value& value = value_at(bindings.back());
+    return value.data.index() == 0 ? nullptr : &value;
+}
+
+const Value* lookup(const Expander& in, Symbol symbol) { return lookup(const_cast<Expander&>(in), symbol); }
+
+bool is_declared(const Expander& in, Symbol symbol) { return lookup(in, symbol) != nullptr; }
+
+void bind(Parser& p, Symbol symbol, Binding binding) {
+    Expander& in = p.in;
+    binding.scope = in.frames.empty() ? 0 : in.frames.back().scope;
+    if (binding.scope != 0) in.locals.push_back(symbol);
+    in.symbols[symbol].bindings.push_back(std::move(binding));
+}
+
+void assign(Parser& p, Symbol symbol, Value value, bool local) {
+    Expander& in = p.in;
+    if (symbol >= in.symbols.size()) in.symbols.resize(in.words.texts.size());
+    SymbolEntry& entry = in.symbols[symbol];
+    entry.poisoned = false;
+    const std::uint32_t scope = local && !in.frames.empty() ? in.frames.back().scope : 0;
+    if (const auto* array = std::get_if<std::shared_ptr<ArrayValue>>(&value.data);
+        array && array->use_count() > 1)
+        value = deep_copy(value);
+    const bool in_place = !entry.bindings.empty() && (!local || entry.bindings.back().scope == scope);
+    if (in_place) {
+        value_at(entry.bindings.back()) = std::move(value);
+        return;
+    }
+    auto cell = std::make_shared<Cell>();
+    cell->value = std::move(value);
+    entry.bindings.push_back({scope, std::move(cell), nullptr, 0});
+    if (scope != 0) in.locals.push_back(symbol);
+}
+
+void undefine(Expander& in, Symbol symbol) {
+    if (symbol < in.symbols.size() && !in.symbols[symbol].bindings.empty())
+        in.symbols[symbol].bindings.pop_back();
+}
+
+const DeclaredBlock* first_block(const ArrayValue& array) {
+    for (const Value& element : array.elements) {
+        if (const auto* held_block = std::get_if<std::shared_ptr<const DeclaredBlock>>(&element.data))
+            return held_block->get();
+        if (const auto* inner = std::get_if<std::shared_ptr<ArrayValue>>(&element.data))
+            if (const DeclaredBlock* found = first_block(**inner)) return found;
+    }
+    return nullptr;
+}
+
+// ---- limits
+// ---------------------------------------------------------------------------------------------------------
+
+Nesting::Nesting(Parser& p, const Token& at) : in(p.in) {
+    const auto depth = static_cast<std::size_t>(++in.used.nesting) + in.blocks.size();
+    if (depth > static_cast<std::size_t>(in.options.budgets.nesting)) {
+        --in.used.nesting;
+        stop(p, at, fmt::format("nested deeper than {} levels", in.options.budgets.nesting));
+    }
+}
+
+void charge(Parser& p, const Token& at, std::size_t bytes) {
+    p.in.used.bytes += static_cast<std::int64_t>(bytes);
+    if (p.in.used.bytes > p.in.options.budgets.bytes)
+        stop(p, at, fmt::format("the scene needs more than {} MB", p.in.options.budgets.bytes / 1'000'000),
+             "does a loop make objects without an end?");
+}
+
+} // namespace pnr

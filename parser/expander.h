@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs the directives. It holds a stack of frames (a file, a macro's body), each a position in an array of
+// tokens, and hands the parser one token after the other. Loops set the position back, branches not taken are
+// jumped over, a macro call or an #include pushes a frame.
+//
+// Names. Lookup is dynamic, as in POV-Ray: a macro sees its caller's locals. Each symbol has a stack of
+// bindings; the top is what the name means now. A scope belongs to a frame; its bindings are popped with it.
+#pragma once
+
+#include "parser/diagnostic.h"
+#include "parser/lexer.h"
+#include "parser/load_scene.h"
+#include "parser/value.h"
+
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+namespace pnr {
+
+struct Parser;
+
+// A #macro: where its body lies. Token arrays live as long as the Expander.
+struct Macro {
+    Symbol name = 0;
+    std::vector<Symbol> parameters;
+    const Token* tokens = nullptr;
+    std::uint32_t begin = 0, end = 0; // of the body; tokens[end] is the #end
+    std::uint32_t source = 0;
+    Span span; // of the name in the #macro line
+};
+
+// A variable's place. Macro parameters share the cell of the caller's variable, or point into its array.
+struct Cell {
+    Value value;
+};
+struct Binding {
+    std::uint32_t scope = 0; // 0: global
+    std::shared_ptr<Cell> cell;
+    std::shared_ptr<ArrayValue> array; // if set, the place is this array's element
+    std::size_t element = 0;
+};
+struct SymbolEntry {
+    std::vector<Binding> bindings;
+    bool poisoned = false; // its declaration failed, or it was reported as unknown: say so once
+};
+
+struct TokenFrame {
+    const Token* tokens = nullptr;
+    std::uint32_t position = 0, end = 0;
+    std::uint32_t chain = 0; // of the tokens that come from here
+    std::uint32_t scope = 0;
+    std::uint32_t source = 0;
+    std::size_t first_local = 0;        // Expander::locals from here on belong to this scope
+    std::size_t first_loop = 0;         // likewise Expander::loops
+    std::shared_ptr<const Macro> macro; // null: a file
+};
+
+struct ForLoop { // a #for that is running
+    std::uint32_t opener = 0;
+    Symbol variable = 0;
+    double value = 0, last = 0, step = 1;
+};
+
+struct Call { // a macro call or #include: how tokens came to be where they are
+    std::uint32_t parent = 0;
+    Span at;
+    Symbol macro = 0; // keyword `include` for a file
+};
+
+struct OpenBlock {
+    Token brace;
+    std::string what;
+    std::int64_t depth = 0; // Expander::brace_depth inside it
+};
+
+// While a directive's own expression is read: what comes behind it in the same frame is not run before the
+// directive has been. `start` is the expression's first token.
+struct Hold {
+    std::size_t frame = 0; // number of frames; 0: no hold
+    std::uint32_t start = 0;
+};
+
+struct Counters {
+    std::int64_t loop_turns = 0, macro_calls = 0, tokens = 0, bytes = 0;
+    int nesting = 0, macro_depth = 0, include_depth = 0;
+};
+
+struct Expander {
+    Sources& sources;
+    std::vector<Diagnostic>& diagnostics;
+    const LoadOptions& options;
+    std::string scene_folder;
+
+    Words words;
+    std::vector<std::string> strings;
+    std::deque<std::vector<Token>> texts;                 // tokens, by source
+    std::unordered_map<std::string, std::uint32_t> files; // path -> source, of included files
+
+    std::vector<SymbolEntry> symbols;
+    std::vector<TokenFrame> frames;
+    std::vector<Symbol> locals;
+    std::vector<ForLoop> loops;
+    std::vector<Call> calls{Call{}};
+    std::unordered_map<std::uint64_t, std::uint32_t>
+        call_numbers; // (parent, source, place) hashed -> index into calls
+
+    Token buffer; // the token that peek shows, if `buffered`
+    bool buffered = false;
+    std::int64_t tokens_taken = 0;
+    std::int64_t brace_depth = 0;
+    std::vector<OpenBlock> blocks;
+    Hold hold;
+
+    Counters used;
+    int errors = 0;
+    std::unordered_set<std::uint64_t> reported; // hashes of (place, message)
+    std::vector<std::uint32_t> random_streams;
+    double version = 3.7;
+    std::string debug_output;
+
+    Expander(Sources& all_sources, std::vector<Diagnostic>& all_diagnostics, const LoadOptions& load_options)
+        : sources(all_sources), diagnostics(all_diagnostics), options(load_options) {}
+};
+
+// Thrown when the run cannot go on: a budget is used up, or there are too many errors. Recorded before.
+struct ParseStop {};
+
+// ---- the stream
+// ---------------------------------------------------------------------------------------------------
+
+void fill_buffer(Parser& p); // the next token after expansion into in.buffer
+// Between an operand and an operator: like peek, but in a directive's expression it shows `end` where the
+// expression must end before the next directive runs.
+const Token& peek_operator(Parser& p);
+// The next token of the current frame as it stands, no directive run, no macro expanded. Only with an empty
+// buffer.
+const Token& peek_raw(Parser& p);
+Token next_raw(Parser& p);
+void run_directive(Parser& p, const Token& directive); // directive.cpp; the token has been passed
+void call_macro(Parser& p, const std::shared_ptr<const Macro>& macro, const Token& name);
+void push_text(Parser& p, std::uint32_t source,
+               const Token& at); // a frame over a whole text, with its own scope
+void push_macro(Parser& p, const std::shared_ptr<const Macro>& macro, const Token& at);
+void pop_frame(Parser& p);
+const std::vector<Token>& tokens_of(Expander& in, std::uint32_t source); // lexed on first use
+
+// ---- names
+// ----------------------------------------------------------------------------------------------------------
+
+const Value* lookup(const Expander& in, Symbol symbol); // null: not declared (or declared without a value)
+Value* lookup(Expander& in, Symbol symbol);
+bool is_declared(const Expander& in, Symbol symbol);
+// #declare: the visible variable, or a new global. #local: this frame's, or a new one in it.
+void assign(Parser& p, Symbol symbol, Value value, bool local);
+void bind(Parser& p, Symbol symbol, Binding binding); // a new binding in the current scope
+void undefine(Expander& in, Symbol symbol);
+// The value of the identifier that is next, with its subscripts, all taken. Error if it has none.
+const Value& take_variable(Parser& p);
+const DeclaredBlock* first_block(const ArrayValue& array); // some element that is a block; null: none
+std::string article_name(const Value& value);              // "a texture", "an array"
+
+// ---- limits
+// ---------------------------------------------------------------------------------------------------------
+
+// One level deeper in the parser's own recursion; error beyond the budget.
+struct Nesting {
+    Expander& in;
+    Nesting(Parser& p, const Token& at);
+    ~Nesting() { --in.used.nesting; }
+    Nesting(const Nesting&) = delete;
+    Nesting& operator=(const Nesting&) = delete;
+};
+[[noreturn]] void stop(Parser& p, const Token& at, std::string message, std::string help = {});
+
+} // namespace pnr

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parser/expression.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace pnr {
+
+namespace {
+
+// Binding powers of POV-Ray's operators; & and | bind alike, as do all comparisons.
+enum Power : int { none = 0, logical = 1, comparison = 2, sum = 3, product = 4 };
+
+constexpr Symbol two(char a, char b) { return static_cast<Symbol>(a) | static_cast<Symbol>(b) << 8; }
+
+Power power_of(const Token& token, Angles angles) {
+    if (token.kind != TokenKind::punctuation) return none;
+    switch (token.symbol) {
+    case '*':
+    case '/':
+        return product;
+    case '+':
+    case '-':
+        return sum;
+    case '<':
+    case '>':
+    case '=':
+    case two('<', '='):
+    case two('>', '='):
+    case two('!', '='):
+        return angles == Angles::compare ? comparison : none;
+    case '&':
+    case '|':
+        return angles == Angles::compare ? logical : none;
+    default:
+        return none;
+    }
+}
+
+// Equal means within 1e-10, as for POV-Ray.
+double compare(Symbol op, double a, double b) {
+    const bool equal = std::abs(a - b) < 1e-10;
+    switch (op) {
+    case '<':
+        return a < b && !equal;
+    case '>':
+        return a > b && !equal;
+    case '=':
+        return equal;
+    case two('<', '='):
+        return a < b || equal;
+    case two('>', '='):
+        return a > b || equal;
+    default:
+        return !equal;
+    }
+}
+
+double apply_scalar(Parser& p, const Token& op, double a, double b) {
+    switch (op.symbol) {
+    case '+':
+        return a + b;
+    case '-':
+        return a - b;
+    case '*':
+        return a * b;
+    case '/':
+        if (b == 0) fail(p, op, "division by zero");
+        return a / b;
+    case '&':
+        return is_true(a) && is_true(b);
+    case '|':
+        return is_true(a) || is_true(b);
+    default:
+        return compare(op.symbol, a, b);
+    }
+}
+
+void require_finite(Parser& p, const Token& at, double value) {
+    if (!std::isfinite(value))
+        fail(p, at,
+             std::isnan(value) ? "the result is not a number" : "the result is too large for a number");
+}
+
+VectorValue apply(Parser& p, const Token& op, VectorValue a, VectorValue b) {
+    if (a.size == 1 && b.size == 1) {
+        const double value = apply_scalar(p, op, a.v[0], b.v[0]);
+        require_finite(p, op, value);
+        return scalar(value);
+    }
+    const int size = std::max(a.size, b.size);
+    promote(a, size);
+    promote(b, size);
+    if (op.symbol == '/')
+        for (int i = 0; i < size; ++i) // a zero that promotion filled in divides nothing
+            if (b.v[i] == 0 && a.v[i] == 0 && i >= 3) b.v[i] = 1;
+    for (int i = 0; i < size; ++i) {
+        a.v[i] = apply_scalar(p, op, a.v[i], b.v[i]);
+        require_finite(p, op, a.v[i]);
+    }
+    a.is_color = a.is_color || b.is_color;
+    return a;
+}
+
+VectorValue parse_unary(Parser& p) {
+    const Token& token = peek(p);
+    if (token.kind != TokenKind::punctuation) return parse_primary(p);
+    if (token.symbol == '-' || token.symbol == '+' || token.symbol == '!') {
+        const Token op = next(p);
+        const Nesting nesting(p, op);
+        VectorValue value = parse_unary(p);
+        if (op.symbol == '-')
+            for (double& v : value.v) v = -v;
+        if (op.symbol == '!')
+            for (int i = 0; i < value.size; ++i) value.v[i] = !is_true(value.v[i]);
+        return value;
+    }
+    return parse_primary(p);
+}
+
+VectorValue parse_binary(Parser& p, int minimum, Angles angles) {
+    VectorValue left = parse_unary(p);
+    for (;;) {
+        const Token& seen = peek_operator(p);
+        const Power power = power_of(seen, angles);
+        if (power == none || power < minimum) return left;
+        const Token op = next(p);
+        // Deeper only for operators that bind more tightly: left to right among equals.
+        const VectorValue right = parse_binary(p, power + 1, angles);
+        left = apply(p, op, left, right);
+    }
+}
+
+VectorValue parse_conditional(Parser& p, Angles angles) {
+    const VectorValue value = parse_binary(p, logical, angles);
+    if (!is(peek_operator(p), '?')) return value;
+    const Token question = next(p);
+    const bool chosen = is_true(scalar_of(p, value, question));
+    // Both sides are evaluated, as in POV-Ray; nested ones group to the right.
+    const Nesting nesting(p, question);
+    const VectorValue yes = parse_conditional(p, angles);
+    expect(p, ':', "between the two values of `?`");
+    const VectorValue no = parse_conditional(p, angles);
+    return chosen ? yes : no;
+}
+
+bool compare_strings(Parser& p) {
+    const std::string left = parse_string(p);
+    const Token op = next(p);
+    if (power_of(op, Angles::compare) != comparison)
+        fail(p, op, fmt::format("expected a comparison behind the string, found {}", token_text(p, op)));
+    const int order = left.compare(parse_string(p));
+    return compare(op.symbol, order, 0) != 0;
+}
+
+} // namespace
+
+void promote(VectorValue& value, int size) {
+    if (value.size == 1)
+        for (int i = 1; i < size; ++i) value.v[i] = value.v[0];
+    else
+        for (int i = value.size; i < size; ++i) value.v[i] = 0;
+    value.size = std::max(value.size, size);
+}
+
+double scalar_of(Parser& p, const VectorValue& value, const Token& at) {
+    if (value.size != 1)
+        fail(p, at, fmt::format("a number is needed here, this is a vector of {} components", value.size),
+             "take one with .x, .y or .z, or its length with vlength()");
+    return value.v[0];
+}
+
+VectorValue parse_operand_expression(Parser& p, Angles angles) { return parse_conditional(p, angles); }
+
+double parse_condition(Parser& p) {
+    if (at_string(p)) return compare_strings(p);
+    const Token first = peek(p);
+    return scalar_of(p, parse_conditional(p, Angles::compare), first);
+}
+
+// ---- what the blocks ask for
+// ----------------------------------------------------------------------------------------
+
+double parse_float(Parser& p) {
+    const Token first = peek(p);
+    return scalar_of(p, parse_conditional(p, Angles::bracket), first);
+}
+
+double parse_float_in(Parser& p, double low, double high, std::string_view what) {
+    const Token first = peek(p);
+    const double value = parse_float(p);
+    if (value >= low && value <= high) return value;
+    if (high == infinity) fail(p, first, fmt::format("{} must be at least {}, this is {}", what, low, value));
+    if (low == -infinity) fail(p, first, fmt::format("{} must be at most {}, this is {}", what, high, value));
+    fail(p, first, fmt::format("{} must be between {} and {}, this is {}", what, low, high, value));
+}
+
+int parse_int(Parser& p, int low, int high, std::string_view what) {
+    const Token first = peek(p);
+    const double value = parse_float(p);
+    if (value < low || value > high)
+        fail(p, first, fmt::format("{} must be between {} and {}, this is {}", what, low, high, value));
+    return static_cast<int>(value);
+}
+
+bool parse_bool(Parser& p) { return is_true(parse_float(p)); }
+
+bool parse_optional_bool(Parser& p) { return at_expression(p) ? parse_bool(p) : true; }
+
+Vec3 parse_vector(Parser& p) {
+    const Token first = peek(p);
+    VectorValue value = parse_conditional(p, Angles::bracket);
+    if (value.size == 1) promote(value, 3);
+    if (value.size == 2) promote(value, 3);
+    if (value.size > 3 && !value.is_color)
+        fail(p, first, fmt::format("a vector of 3 components is needed here, this has {}", value.size));
+    return {value.v[0], value.v[1], value.v[2]};
+}
+
+Vec2 parse_uv(Parser& p) {
+    const Token first = peek(p);
+    VectorValue value = parse_conditional(p, Angles::bracket);
+    promote(value, 2);
+    if (value.size > 2)
+        fail(p, first, fmt::format("a vector of 2 components is needed here, this has {}", value.size));
+    return {value.v[0], value.v[1]};
+}
+
+ColorFT parse_color(Parser& p) {
+    accept(p, "color"_kw);
+    VectorValue value = at_color(p) ? color_expression(p) : parse_conditional(p, Angles::bracket);
+    if (value.size == 1) promote(value, 3); // opaque
+    promote(value, 5);
+    const auto f = [&](int i) { return static_cast<float>(value.v[i]); };
+    return {{f(0), f(1), f(2)}, f(3), f(4)};
+}
+
+} // namespace pnr

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parser/lexer.h"
+
+#include <charconv>
+#include <cstring>
+
+namespace pnr {
+
+namespace {
+
+constexpr std::uint32_t hash_text(std::string_view word) { // FNV-1a
+    std::uint32_t h = 2166136261u;
+    for (const char c : word) h = (h ^ static_cast<unsigned char>(c)) * 16777619u;
+    return h ^ (h >> 15);
+}
+
+constexpr bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+std::string_view american(std::string_view word) {
+    if (word == "colour") return "color";
+    if (word == "colour_map") return "color_map";
+    if (word == "fade_colour") return "fade_color";
+    if (word == "quick_colour") return "quick_color";
+    if (word == "use_colour") return "use_color";
+    if (word == "grey") return "gray";
+    return word;
+}
+
+struct Lexer {
+    const SourceText& source;
+    std::uint32_t source_index;
+    Words& words;
+    std::vector<std::string>& strings;
+    std::vector<Token> tokens;
+    const char* begin;
+    const char* at;
+    const char* end;
+};
+
+Token make_token(const Lexer& lexer, TokenKind kind, const char* from, Symbol symbol, double value = 0) {
+    return {kind, symbol, value,
+            Span{lexer.source_index, static_cast<std::uint32_t>(from - lexer.begin),
+                 static_cast<std::uint32_t>(lexer.at - lexer.begin)},
+            0};
+}
+
+void add(Lexer& lexer, TokenKind kind, const char* from, Symbol symbol, double value = 0) {
+    lexer.tokens.push_back(make_token(lexer, kind, from, symbol, value));
+}
+
+void add_invalid(Lexer& lexer, const char* from, std::string message) {
+    lexer.strings.push_back(std::move(message));
+    add(lexer, TokenKind::invalid, from, static_cast<Symbol>(lexer.strings.size() - 1));
+}
+
+// Comments nest, as in POV-Ray.
+void skip_block_comment(Lexer& lexer) {
+    const char* from = lexer.at;
+    int depth = 0;
+    while (lexer.at < lexer.end) {
+        const bool two = lexer.at + 1 < lexer.end;
+        if (two && lexer.at[0] == '/' && lexer.at[1] == '*') {
+            ++depth;
+            lexer.at += 2;
+        } else if (two && lexer.at[0] == '*' && lexer.at[1] == '/') {
+            lexer.at += 2;
+            if (--depth == 0) return;
+        } else {
+            ++lexer.at;
+        }
+    }
+    lexer.at = from + 2; // the error points at the opener
+    add_invalid(lexer, from, "`/*` opened here is never closed");
+    lexer.at = lexer.end;
+}
+
+} // namespace
+
+std::string utf8(unsigned code) {
+    std::string out;
+    if (code < 0x80) {
+        out += static_cast<char>(code);
+    } else if (code < 0x800) {
+        out += static_cast<char>(0xc0 | (code >> 6));
+        out += static_cast<char>(0x80 | (code & 0x3f));
+    } else {
+        out += static_cast<char>(0xe0 | (code >> 12));
+        out += static_cast<char>(0x80 | ((code >> 6) & 0x3f));
+        out += static_cast<char>(0x80 | (code & 0x3f));
+    }
+    return out;
+}
+
+namespace {
+
+// One escape, behind its backslash. Unknown ones keep the backslash: "C:\dir" is meant.
+void unescape(Lexer& lexer, std::string& out) {
+    const char c = *lexer.at++;
+    switch (c) {
+    case 'n':
+        out += '\n';
+        break;
+    case 't':
+        out += '\t';
+        break;
+    case 'r':
+        out += '\r';
+        break;
+    case 'a':
+        out += '\a';
+        break;
+    case 'b':
+        out += '\b';
+        break;
+    case 'f':
+        out += '\f';
+        break;
+    case 'v':
+        out += '\v';
+        break;
+    case '0':
+        out += '\0';
+        break;
+    case '"':
+    case '\'':
+    case '\\':
+        out += c;
+        break;
+    case 'u': {
+        unsigned code = 0;
+        const char* last = lexer.end - lexer.at < 4 ? lexer.end : lexer.at + 4;
+        const auto result = std::from_chars(lexer.at, last, code, 16);
+        if (result.ptr == lexer.at + 4) {
+            out += utf8(code);
+            lexer.at += 4;
+        } else {
+            out += "\\u";
+        }
+        break;
+    }
+    default:
+        out += '\\';
+        out += c;
+    }
+}
+
+void lex_string(Lexer& lexer) {
+    const char* from = lexer.at++;
+    std::string text;
+    while (lexer.at < lexer.end && *lexer.at != '"') {
+        const char c = *lexer.at++;
+        if (c == '\\' && lexer.at < lexer.end)
+            unescape(lexer, text);
+        else
+            text += c;
+    }
+    if (lexer.at == lexer.end) {
+        lexer.at = from + 1;
+        add_invalid(lexer, from, "the string opened here is never closed");
+        lexer.at = lexer.end;
+        return;
+    }
+    ++lexer.at;
+    lexer.strings.push_back(std::move(text));
+    add(lexer, TokenKind::string, from, static_cast<Symbol>(lexer.strings.size() - 1));
+}
+
+void lex_number(Lexer& lexer) {
+    const char* from = lexer.at;
+    double value = 0;
+    const auto result = std::from_chars(from, lexer.end, value);
+    lexer.at = result.ptr;
+    if (result.ec == std::errc::result_out_of_range) {
+        // Too small is 0; too large cannot be meant.
+        const std::string_view text(from, static_cast<std::size_t>(result.ptr - from));
+        const std::size_t exponent = text.find_first_of("eE");
+        if (exponent == text.npos || text[exponent + 1] != '-') {
+            add_invalid(lexer, from, "this number is too large");
+            return;
+        }
+        value = 0;
+    }
+    add(lexer, TokenKind::number, from, 0, value);
+}
+
+void lex_word(Lexer& lexer) {
+    const char* from = lexer.at;
+    while (lexer.at < lexer.end && (is_letter(*lexer.at) || is_digit(*lexer.at))) ++lexer.at;
+    const std::string_view word(from, static_cast<std::size_t>(lexer.at - from));
+    add(lexer, TokenKind::word, from, lexer.words.intern(american(word)));
+}
+
+void lex_directive(Lexer& lexer) {
+    const char* from = lexer.at++;
+    while (lexer.at < lexer.end && (*lexer.at == ' ' || *lexer.at == '\t')) ++lexer.at;
+    const char* word = lexer.at;
+    while (lexer.at < lexer.end && (is_letter(*lexer.at) || is_digit(*lexer.at))) ++lexer.at;
+    if (word == lexer.at) {
+        lexer.at = from + 1;
+        add_invalid(lexer, from, "`#` must be followed by the name of a directive");
+        return;
+    }
+    const Symbol name = lexer.words.intern({word, static_cast<std::size_t>(lexer.at - word)});
+    add(lexer, TokenKind::directive, from, name, no_jump);
+}
+
+std::string invalid_character(char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x20 && byte < 0x7f) return std::string("the character `") + c + "` has no meaning here";
+    const char* digits = "0123456789abcdef";
+    return std::string("the byte 0x") + digits[byte >> 4] + digits[byte & 15] + " has no meaning in a scene";
+}
+
+void lex_punctuation(Lexer& lexer) {
+    const char* from = lexer.at;
+    const char c = *lexer.at++;
+    if (std::strchr("{}()[]<>,;:.?=!+-*/&|", c) == nullptr || c == '\0') {
+        // A run of unreadable bytes is one error.
+        while (lexer.at < lexer.end && *lexer.at == c) ++lexer.at;
+        add_invalid(lexer, from, invalid_character(c));
+        return;
+    }
+    auto symbol = static_cast<Symbol>(c);
+    if (lexer.at < lexer.end && *lexer.at == '=' && (c == '<' || c == '>' || c == '!')) {
+        symbol |= static_cast<Symbol>('=') << 8;
+        ++lexer.at;
+    }
+    add(lexer, TokenKind::punctuation, from, symbol);
+}
+
+void lex_all(Lexer& lexer) {
+    if (lexer.source.text.starts_with("\xef\xbb\xbf")) lexer.at += 3;
+    while (lexer.at < lexer.end) {
+        const char c = *lexer.at;
+        const char following = lexer.at + 1 < lexer.end ? lexer.at[1] : '\0';
+        if (c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v')
+            ++lexer.at;
+        else if (is_digit(c) || (c == '.' && is_digit(following)))
+            lex_number(lexer);
+        else if (is_letter(c))
+            lex_word(lexer);
+        else if (c == '/' && following == '/') {
+            const void* line_end =
+                std::memchr(lexer.at, '\n', static_cast<std::size_t>(lexer.end - lexer.at));
+            lexer.at = line_end ? static_cast<const char*>(line_end) : lexer.end;
+        } else if (c == '/' && following == '*')
+            skip_block_comment(lexer);
+        else if (c == '"')
+            lex_string(lexer);
+        else if (c == '#')
+            lex_directive(lexer);
+        else if (c == 0x1a && lexer.at + 1 == lexer.end)
+            ++lexer.at; // DOS end of file
+        else
+            lex_punctuation(lexer);
+    }
+    add(lexer, TokenKind::end, lexer.at, 0);
+}
+
+// ---- pairing of directives
+// --------------------------------------------------------------------------------------
+
+struct Opened {
+    std::size_t opener;
+    std::size_t last_branch;         // #if, #else, #case ...: it jumps to what comes next
+    std::vector<std::size_t> breaks; // waiting for the #end
+};
+
+bool takes_break(Keyword name) { return name == "while"_kw || name == "for"_kw || name == "switch"_kw; }
+
+void note_break(const std::vector<Token>& tokens, std::vector<Opened>& stack, std::size_t at) {
+    for (auto open = stack.rbegin(); open != stack.rend(); ++open) {
+        const auto name = static_cast<Keyword>(tokens[open->opener].symbol);
+        if (takes_break(name)) {
+            open->breaks.push_back(at);
+            return;
+        }
+        if (name == "macro"_kw) return;
+    }
+}
+
+void pair_directives(std::vector<Token>& tokens, std::vector<std::string>& strings) {
+    std::vector<Opened> stack;
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        if (tokens[i].kind != TokenKind::directive) continue;
+        const auto name = static_cast<Keyword>(tokens[i].symbol);
+        const auto index = static_cast<double>(i);
+        if (is_opener(name)) {
+            stack.push_back({i, i, {}});
+        } else if (name == "break"_kw) {
+            note_break(tokens, stack, i);
+        } else if (stack.empty()) {
+            continue;
+        } else if (name == "else"_kw || name == "elseif"_kw || name == "case"_kw || name == "range"_kw) {
+            tokens[stack.back().last_branch].value = index;
+            stack.back().last_branch = i;
+        } else if (name == "end"_kw) {
+            const Opened& open = stack.back();
+            tokens[open.last_branch].value = index;
+            for (const std::size_t each : open.breaks) tokens[each].value = index;
+            tokens[i].value = static_cast<double>(open.opener);
+            stack.pop_back();
+        }
+    }
+    for (const Opened& open : stack) {
+        Token& opener = tokens[open.opener];
+        strings.push_back("`#" + std::string(keyword_text(static_cast<Keyword>(opener.symbol))) +
+                          "` opened here is never closed by `#end`");
+        opener.kind = TokenKind::invalid;
+        opener.symbol = static_cast<Symbol>(strings.size() - 1);
+    }
+}
+
+} // namespace
+
+bool is_opener(Keyword name) {
+    return name == "if"_kw || name == "ifdef"_kw || name == "ifndef"_kw || name == "while"_kw ||
+           name == "for"_kw || name == "switch"_kw || name == "macro"_kw;
+}
+
+Words::Words() : table(4096, 0) {
+    for (Symbol s = 0; s < keyword_count; ++s) intern(keyword_text(static_cast<Keyword>(s)));
+}
+
+Symbol Words::intern(std::string_view word) {
+    const std::size_t mask = table.size() - 1;
+    std::size_t slot = hash_text(word) & mask;
+    while (table[slot] != 0) {
+        if (texts[table[slot] - 1] == word) return table[slot] - 1;
+        slot = (slot + 1) & mask;
+    }
+    texts.emplace_back(word);
+    table[slot] = static_cast<std::uint32_t>(texts.size());
+    if (texts.size() * 2 > table.size()) { // grow, and enter everything again
+        table.assign(table.size() * 2, 0);
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            std::size_t free = hash_text(texts[i]) & (table.size() - 1);
+            while (table[free] != 0) free = (free + 1) & (table.size() - 1);
+            table[free] = static_cast<std::uint32_t>(i + 1);
+        }
+    }
+    return static_cast<Symbol>(texts.size() - 1);
+}
+
+std::vector<Token> lex(const SourceText& source, std::uint32_t source_index, Words& words,
+                       std::vector<std::string>& strings) {
+    const char* begin = source.text.data();
+    Lexer lexer{source, source_index, words, strings, {}, begin, begin, begin + source.text.size()};
+    lexer.tokens.reserve(source.text.size() / 4);
+    lex_all(lexer);
+    pair_directives(lexer.tokens, strings);
+    return std::move(lexer.tokens);
+}
+
+} // namespace pnr

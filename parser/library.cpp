@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parser/library.h"
+
+#include "parser/parser.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <system_error>
+
+namespace pnr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view embedded_prefix = "pnr:"; // path of an embedded file: pnr:colors.inc
+
+// The folder of the text that is being read; empty for embedded files.
+std::string current_folder(const Expander& in) {
+    const std::string& path = in.sources.files[in.frames.back().source].path;
+    if (path.starts_with(embedded_prefix)) return {};
+    const std::string folder = fs::path(path).parent_path().string();
+    return folder.empty() ? "." : folder;
+}
+
+std::vector<fs::path> search_folders(const Expander& in) {
+    std::vector<fs::path> folders;
+    const auto add = [&](const fs::path& folder) {
+        if (!folder.empty() && std::find(folders.begin(), folders.end(), folder) == folders.end())
+            folders.push_back(folder);
+    };
+    add(current_folder(in));
+    add(in.scene_folder);
+    for (const fs::path& folder : in.options.library) add(folder);
+    return folders;
+}
+
+fs::path real_path(const fs::path& path) {
+    std::error_code error;
+    fs::path result = fs::weakly_canonical(fs::absolute(path, error), error);
+    return error ? fs::absolute(path, error).lexically_normal() : result;
+}
+
+bool lies_below(const fs::path& path, const fs::path& folder) {
+    const fs::path relative = path.lexically_relative(folder);
+    return !relative.empty() && *relative.begin() != "..";
+}
+
+// May a scene read this file? Only below its own folder and the library's.
+bool is_allowed(const Expander& in, const fs::path& file) {
+    const fs::path real = real_path(file);
+    if (lies_below(real, real_path(in.scene_folder.empty() ? "." : in.scene_folder))) return true;
+    for (const fs::path& folder : in.options.library)
+        if (lies_below(real, real_path(folder))) return true;
+    for (const fs::path& folder : povray_folders())
+        if (lies_below(real, real_path(folder))) return true;
+    return false;
+}
+
+bool is_file(const fs::path& path) {
+    std::error_code error;
+    return fs::is_regular_file(path, error);
+}
+
+struct Found {
+    std::string path;     // empty: not found
+    bool refused = false; // found, but outside of the allowed folders
+};
+
+Found find_in(const Expander& in, const std::vector<fs::path>& folders, const std::string& name) {
+    Found found;
+    for (const fs::path& folder : folders) {
+        const fs::path file = fs::path(name).is_absolute() ? fs::path(name) : folder / name;
+        if (!is_file(file)) continue;
+        if (is_allowed(in, file)) {
+            const fs::path shown = folder == "." ? fs::path(name) : file;
+            return {shown.lexically_normal().string(), false};
+        }
+        found.refused = true;
+    }
+    return found;
+}
+
+// Names of the files beside which the wanted one would lie, for "did you mean".
+std::string nearest_file(const Expander& in, const std::string& name, bool includes) {
+    std::vector<std::string> names;
+    std::vector<fs::path> folders = search_folders(in);
+    if (includes) {
+        for (const EmbeddedFile& file : embedded_files()) names.emplace_back(file.name);
+        for (const fs::path& folder : povray_folders()) folders.push_back(folder);
+    }
+    for (const fs::path& folder : folders) {
+        std::error_code error;
+        int seen = 0;
+        for (fs::directory_iterator entry(folder / fs::path(name).parent_path(), error), last;
+             !error && entry != last && seen < 5000; entry.increment(error), ++seen)
+            names.push_back((fs::path(name).parent_path() / entry->path().filename()).string());
+    }
+    std::vector<std::string_view> views(names.begin(), names.end());
+    return std::string(nearest_word(name, views));
+}
+
+[[noreturn]] void fail_missing(Parser& p, const Token& at, const std::string& name, bool includes,
+                               bool refused) {
+    if (refused || fs::path(name).is_absolute() || name.starts_with(".."))
+        fail(p, at,
+             fmt::format(
+                 "the file \"{}\" lies outside of the scene's folder and the library, and is not read", name),
+             "-L FOLDER adds a folder to the library");
+    const std::string nearest = nearest_file(p.in, name, includes);
+    fail(p, at, fmt::format("there is no file \"{}\"", name),
+         nearest.empty() ? "looked in the scene's folder and the library; -L FOLDER adds a folder"
+                         : fmt::format("did you mean \"{}\"?", nearest));
+}
+
+std::uint32_t add_file(Parser& p, const Token& at, const std::string& path) {
+    Expander& in = p.in;
+    const auto known = in.files.find(path);
+    if (known != in.files.end()) return known->second;
+    std::error_code error;
+    const auto size = fs::file_size(path, error);
+    if (!error && static_cast<std::int64_t>(size) > in.options.budgets.file_bytes)
+        stop(p, at,
+             fmt::format("\"{}\" is larger than {} MB", path, in.options.budgets.file_bytes / 1'000'000));
+    std::ifstream stream(path, std::ios::binary);
+    std::string text(std::istreambuf_iterator<char>(stream), {});
+    if (!stream) fail(p, at, fmt::format("\"{}\" cannot be read", path));
+    const std::uint32_t source = in.sources.add(path, std::move(text));
+    in.files.emplace(path, source);
+    return source;
+}
+
+} // namespace
+
+std::vector<fs::path> povray_folders() {
+    std::vector<fs::path> folders;
+    for (const char* root : {"/usr/share", "/usr/local/share"}) {
+        std::error_code error;
+        for (fs::directory_iterator entry(root, error), last; !error && entry != last;
+             entry.increment(error)) {
+            const std::string name = entry->path().filename().string();
+            if (name.starts_with("povray-") && fs::is_directory(entry->path() / "include", error))
+                folders.push_back(entry->path() / "include");
+        }
+    }
+    std::sort(folders.rbegin(), folders.rend());
+    return folders;
+}
+
+std::uint32_t open_include(Parser& p, const Token& at, const std::string& name) {
+    Expander& in = p.in;
+    const Found found = find_in(in, search_folders(in), name);
+    if (!found.path.empty()) return add_file(p, at, found.path);
+    for (const EmbeddedFile& file : embedded_files()) {
+        if (file.name != name) continue;
+        const std::string path = std::string(embedded_prefix) + name;
+        const auto known = in.files.find(path);
+        if (known != in.files.end()) return known->second;
+        const std::uint32_t source = in.sources.add(path, std::string(file.text));
+        in.files.emplace(path, source);
+        return source;
+    }
+    const Found installed = find_in(in, povray_folders(), name);
+    if (!installed.path.empty()) return add_file(p, at, installed.path);
+    fail_missing(p, at, name, true, found.refused || installed.refused);
+}
+
+bool file_exists(Parser& p, const std::string& name) {
+    for (const EmbeddedFile& file : embedded_files())
+        if (file.name == name) return true;
+    return !find_in(p.in, search_folders(p.in), name).path.empty() ||
+           !find_in(p.in, povray_folders(), name).path.empty();
+}
+
+std::string resolve_file(Parser& p, const Token& at, const std::string& name) {
+    const Found found = find_in(p.in, search_folders(p.in), name);
+    if (!found.path.empty()) return found.path;
+    const Found installed = find_in(p.in, povray_folders(), name);
+    if (!installed.path.empty()) return installed.path;
+    fail_missing(p, at, name, false, found.refused || installed.refused);
+}
+
+} // namespace pnr

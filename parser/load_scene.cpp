@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parser/load_scene.h"
+
+#include "parser/blocks.h"
+#include "parser/expander.h"
+#include "parser/library.h"
+#include "parser/parser.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+namespace pnr {
+
+namespace {
+
+// FNV-1a over every text of the run and every declaration from outside.
+std::uint64_t hash_of(const Sources& sources, const LoadOptions& options) {
+    std::uint64_t h = 14695981039346656037ull;
+    const auto add = [&](std::string_view text) {
+        for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+        h = (h ^ text.size()) * 1099511628211ull;
+    };
+    for (const SourceText& source : sources.files) add(source.text);
+    for (const auto& [name, value] : options.declares) {
+        add(name);
+        add(value);
+    }
+    add(fmt::format("{} {} {} {}", options.clock, options.frame_number, options.initial_frame,
+                    options.final_frame));
+    return h;
+}
+
+void declare_number(Parser& p, std::string_view name, double value) {
+    assign(p, p.in.words.intern(name), Value{value}, false);
+}
+
+// The variables that POV-Ray declares before the first line.
+void declare_givens(Parser& p) {
+    const LoadOptions& options = p.in.options;
+    declare_number(p, "frame_number", options.frame_number);
+    declare_number(p, "initial_frame", options.initial_frame);
+    declare_number(p, "final_frame", options.final_frame);
+    declare_number(p, "initial_clock", 0);
+    declare_number(p, "final_clock", 1);
+    const int frames = options.final_frame - options.initial_frame;
+    declare_number(p, "clock_delta", frames > 0 ? 1.0 / frames : 1);
+    declare_number(p, "image_width", options.width.value_or(512));
+    declare_number(p, "image_height", options.height.value_or(512));
+}
+
+// -D NAME=EXPR, each read as `#declare NAME = EXPR;` in a text of its own.
+void declare_from_outside(Parser& p) {
+    for (const auto& [name, value] : p.in.options.declares) {
+        const std::uint32_t source =
+            p.in.sources.add(fmt::format("-D {}", name), fmt::format("#declare {} = {};", name, value));
+        push_text(p, source, Token{});
+        fill_buffer(p);
+        if (p.in.buffered) fail(p, p.in.buffer, "expected one expression");
+        p.in.frames.clear();
+    }
+}
+
+} // namespace
+
+LoadResult load_scene_text(std::string text, const std::string& name, const LoadOptions& options) {
+    LoadResult result;
+    Scene scene;
+    scene.file = name;
+    scene.povray = name.ends_with(".pov") || name.ends_with(".POV");
+    Expander in(result.sources, result.diagnostics, options);
+    const std::filesystem::path folder = std::filesystem::path(name).parent_path();
+    in.scene_folder = folder.empty() ? std::string(".") : folder.string();
+    Parser p{in, scene, result.settings, {}, {}};
+    const std::uint32_t source = in.sources.add(name, std::move(text));
+    try {
+        in.symbols.resize(in.words.texts.size());
+        declare_givens(p);
+        declare_from_outside(p);
+        push_text(p, source, Token{});
+        parse_scene(p);
+    } catch (const ParseFailure&) {
+    } catch (const ParseStop&) {}
+    result.debug_output = std::move(in.debug_output);
+    if (in.errors > 0) return result;
+    scene.hash = hash_of(result.sources, options);
+    result.scene = std::move(scene);
+    return result;
+}
+
+LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& options) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string text(std::istreambuf_iterator<char>(stream), {});
+    if (!stream) throw FileError(fmt::format("{} cannot be read", file.string()));
+    return load_scene_text(std::move(text), file.string(), options);
+}
+
+std::string default_scene_text() {
+    for (const EmbeddedFile& file : embedded_files())
+        if (file.name == "default.pnr") return std::string(file.text);
+    return {};
+}
+
+} // namespace pnr

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "parser/parser.h"
+
+#include "parser/expander.h"
+
+#include <fmt/format.h>
+
+namespace pnr {
+
+// ---- tokens
+// ---------------------------------------------------------------------------------------------------------
+
+std::string token_text(Parser& p, const Token& token, bool quoted) {
+    if (token.kind == TokenKind::end)
+        return p.in.frames.size() > 1 && p.in.frames.back().macro ? "the end of the macro"
+                                                                  : "the end of the expression or file";
+    const std::string& text = p.in.sources.files[token.span.source].text;
+    constexpr std::size_t longest = 40;
+    std::string shown = text.substr(token.span.begin, token.span.end - token.span.begin);
+    if (shown.size() > longest) shown = shown.substr(0, longest) + "...";
+    for (char& c : shown)
+        if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+    return quoted ? fmt::format("`{}`", shown) : shown;
+}
+
+SourceRef source_ref(Parser& p, const Token& token) {
+    const LineColumn place = p.in.sources.locate(token.span.source, token.span.begin);
+    return {p.in.sources.files[token.span.source].path, place.line, place.column};
+}
+
+void expect(Parser& p, char punctuation, std::string_view to) {
+    if (accept(p, punctuation)) return;
+    const Token found = peek(p);
+    fail(p, found, fmt::format("expected `{}` {}, found {}", punctuation, to, token_text(p, found)));
+}
+
+void accept_comma(Parser& p) {
+    if (is(peek_operator(p), ',')) next(p);
+}
+
+// ---- blocks
+// ---------------------------------------------------------------------------------------------------------
+
+std::size_t open_blocks(const Parser& p) { return p.in.blocks.size(); }
+
+void open_block(Parser& p, std::string_view what) {
+    const Token brace = peek(p);
+    if (!is(brace, '{'))
+        fail(p, brace, fmt::format("expected `{{` to start {}, found {}", what, token_text(p, brace)));
+    const auto depth = static_cast<std::size_t>(p.in.used.nesting) + p.in.blocks.size();
+    if (depth >= static_cast<std::size_t>(p.in.options.budgets.nesting))
+        stop(p, brace, fmt::format("nested deeper than {} levels", p.in.options.budgets.nesting));
+    next(p);
+    p.in.blocks.push_back({brace, std::string(what), p.in.brace_depth});
+}
+
+bool close_block(Parser& p) {
+    const Token& token = peek(p);
+    if (is(token, '}')) {
+        next(p);
+        p.in.blocks.pop_back();
+        return true;
+    }
+    if (token.kind == TokenKind::end) {
+        const OpenBlock& open = p.in.blocks.back();
+        fail(p, open.brace, fmt::format("the `{{` of {} is never closed", open.what));
+    }
+    return false;
+}
+
+void recover_block(Parser& p, std::size_t level) {
+    Expander& in = p.in;
+    in.blocks.resize(level);
+    const std::int64_t depth = in.blocks.back().depth;
+    bool at_the_end = false;
+    while (!at_the_end) {
+        try {
+            while (!at_end(p)) {
+                const bool closes = in.brace_depth == depth && at(p, '}');
+                next(p);
+                if (!closes) continue;
+                in.blocks.pop_back();
+                return;
+            }
+            at_the_end = true;
+        } catch (const ParseFailure&) {
+            in.buffered = false; // a second error on the way; go on behind it
+        }
+    }
+    in.blocks.pop_back();
+    throw ParseFailure{};
+}
+
+void recover_statement(Parser& p) {
+    Expander& in = p.in;
+    in.blocks.clear();
+    const std::int64_t depth = in.brace_depth;
+    bool taken = false;
+    for (;;) {
+        try {
+            if (at_end(p)) return;
+            // The next statement starts with a word behind a closed block, or on a line of its own after a
+            // `;`.
+            const Token token = next(p);
+            taken = true;
+            if (in.brace_depth <= 0 && (is(token, '}') || is(token, ';'))) {
+                in.brace_depth = 0;
+                return;
+            }
+            (void)depth;
+        } catch (const ParseFailure&) {
+            in.buffered = false;
+            if (taken && in.brace_depth <= 0) return;
+        }
+    }
+}
+
+// ---- errors
+// ---------------------------------------------------------------------------------------------------------
+
+namespace {
+
+// How the tokens of this chain came to be where they are; the middle of a deep recursion is left out.
+std::vector<Note> chain_notes(const Expander& in, std::uint32_t chain) {
+    constexpr std::size_t shown_at_each_end = 4;
+    std::vector<Note> notes;
+    for (; chain != 0; chain = in.calls[chain].parent) {
+        const Call& call = in.calls[chain];
+        const bool file = call.macro == static_cast<Symbol>("include"_kw);
+        notes.push_back(
+            {call.at,
+             file ? "included here" : fmt::format("in macro `{}`, called here", in.words.text(call.macro))});
+    }
+    if (notes.size() > 2 * shown_at_each_end) {
+        const std::size_t left_out = notes.size() - 2 * shown_at_each_end;
+        const auto first = notes.begin() + shown_at_each_end;
+        notes.erase(first, first + static_cast<std::ptrdiff_t>(left_out));
+        notes[shown_at_each_end].text += fmt::format(" ({} calls between are not shown)", left_out);
+    }
+    return notes;
+}
+
+std::uint64_t place_hash(const Span& span, std::string_view message) {
+    std::uint64_t h = 1469598103934665603ull; // FNV-1a
+    for (const char c : message) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+    return h ^ (static_cast<std::uint64_t>(span.source) << 40) ^ span.begin;
+}
+
+// The same words about the same place are said once, however often a loop comes by.
+void record(Parser& p, Severity severity, const Token& at, std::string message, std::string help,
+            std::vector<Note> notes = {}) {
+    Expander& in = p.in;
+    if (!in.reported.insert(place_hash(at.span, message)).second) return;
+    for (Note& note : chain_notes(in, at.chain)) notes.push_back(std::move(note));
+    in.diagnostics.push_back({severity, at.span, std::move(message), std::move(notes), std::move(help)});
+    if (severity != Severity::error) return;
+    if (++in.errors < in.options.budgets.errors) return;
+    in.diagnostics.push_back(
+        {Severity::note, at.span, fmt::format("{} errors; the rest is not read", in.errors), {}, {}});
+    throw ParseStop{};
+}
+
+} // namespace
+
+void fail(Parser& p, const Token& at, std::string message, std::string help) {
+    record(p, Severity::error, at, std::move(message), std::move(help));
+    throw ParseFailure{};
+}
+
+void stop(Parser& p, const Token& at, std::string message, std::string help) {
+    Token located = at;
+    if (located.chain == 0 && !p.in.frames.empty()) located.chain = p.in.frames.back().chain;
+    record(p, Severity::error, located, std::move(message), std::move(help));
+    throw ParseStop{};
+}
+
+void error(Parser& p, const Token& at, std::string message, std::string help) {
+    record(p, Severity::error, at, std::move(message), std::move(help));
+}
+
+void warn(Parser& p, const Token& at, std::string message, std::string help) {
+    record(p, Severity::warning, at, std::move(message), std::move(help));
+}
+
+void unexpected(Parser& p, std::string_view inside, std::initializer_list<Keyword> allowed) {
+    const Token token = peek(p);
+    std::string help;
+    if (token.kind == TokenKind::word) {
+        if (token.symbol < p.in.symbols.size() && p.in.symbols[token.symbol].poisoned) throw ParseFailure{};
+        std::vector<std::string_view> candidates;
+        for (const Keyword keyword : allowed) candidates.push_back(keyword_text(keyword));
+        const std::string_view word = p.in.words.text(token.symbol);
+        const std::string_view nearest = nearest_word(word, candidates);
+        if (!nearest.empty()) help = fmt::format("did you mean `{}`?", nearest);
+    }
+    if (help.empty() && allowed.size() > 0 && allowed.size() <= 8) {
+        help = "expected here:";
+        for (const Keyword keyword : allowed) help += fmt::format(" `{}`", keyword_text(keyword));
+    }
+    std::vector<Note> notes;
+    if (!p.in.blocks.empty())
+        notes.push_back(
+            {p.in.blocks.back().brace.span, fmt::format("{} opened here", p.in.blocks.back().what)});
+    const bool unknown =
+        token.kind == TokenKind::word && !is_keyword(token.symbol) && !is_declared(p.in, token.symbol);
+    std::string message = unknown ? fmt::format("unknown word {} in {}", token_text(p, token), inside)
+                                  : fmt::format("unexpected {} in {}", token_text(p, token), inside);
+    record(p, Severity::error, token, std::move(message), std::move(help), std::move(notes));
+    throw ParseFailure{};
+}
+
+// ---- names of types
+// -------------------------------------------------------------------------------------------------
+
+const char* type_name(const Value& value) {
+    switch (value.data.index()) {
+    case 0:
+        return "nothing";
+    case 1:
+        return "number";
+    case 2:
+        return std::get<VectorValue>(value.data).is_color ? "colour" : "vector";
+    case 3:
+        return "string";
+    case 4:
+        return "array";
+    case 6:
+        return "macro";
+    default:
+        break;
+    }
+    static constexpr const char* blocks[] = {
+        "object", "texture",   "pigment",   "finish",     "interior", "light source",
+        "camera", "transform", "npr block", "colour map", "material", "block without meaning here"};
+    static_assert(std::size(blocks) == std::variant_size_v<DeclaredBlock>);
+    return blocks[std::get<std::shared_ptr<const DeclaredBlock>>(value.data)->index()];
+}
+
+std::string article_name(const Value& value) {
+    const std::string name = type_name(value);
+    if (name == "nothing") return name;
+    const bool vowel = std::string_view("aeio").find(name[0]) != std::string_view::npos;
+    return fmt::format("{} {}", vowel ? "an" : "a", name);
+}
+
+} // namespace pnr
