@@ -60,7 +60,7 @@ Aim parallel_aim(const Light& light, double radius) {
 
 std::vector<Aim> make_aims(const World& world, const Light& light, bool unbounded) {
     const auto aim = [&](double radius) {
-        return light.said.parallel ? parallel_aim(light, radius) : point_aim(light, radius);
+        return is_parallel(light) ? parallel_aim(light, radius) : point_aim(light, radius);
     };
     std::vector<Aim> aims{aim(world.radius)};
     if (!unbounded) return aims;
@@ -80,9 +80,8 @@ double light_weight(const World& world, const Light& light) {
     const double scene = pi * world.radius * world.radius; // cross-section
     const double distance = std::max(glm::length(light.said.position), world.radius);
     double lit = scene;
-    if (light.said.parallel && light.said.cylinder)
-        lit = std::min(scene, pi * light.said.falloff * light.said.falloff);
-    if (light.said.spotlight && !light.said.parallel) {
+    if (light.said.cylinder) lit = std::min(scene, pi * light.said.falloff * light.said.falloff);
+    if (light.said.spotlight && !is_parallel(light)) {
         const double spot = 2 * pi * (1 - std::max(0.0, std::cos(light.said.falloff * pi / 180)));
         lit = std::min(scene, spot * distance * distance);
     }
@@ -177,7 +176,7 @@ EmittedPhoton emit_photon(const World& world, const LightShare& share, std::uint
     const Light& light = world.lights[static_cast<std::size_t>(share.light)];
     const Vec2 u = sobol2(index, 0, seed);
     if (!light.is_emitter())
-        return light.said.parallel ? emit_parallel(light, share, u) : emit_point(light, share, u);
+        return is_parallel(light) ? emit_parallel(light, share, u) : emit_point(light, share, u);
     const EmissionSample start = sample_emission(light, u, sobol2(index, 2, seed));
     Hit from; // the emitter's own surface, so that the ray leaves it as from any hit
     from.position = start.point;

@@ -127,12 +127,16 @@ double light_falloff(const Light& light, Vec3 position) {
     }
     const double distance = glm::length(d);
     // A parallel spot shines straight along its axis everywhere: POV-Ray gives it no edge.
-    const double cosine = l.parallel ? 1.0 : distance > 0 ? along / distance : 1.0;
+    const double cosine = l.parallel || !(distance > 0) ? 1.0 : along / distance;
     if (cosine <= 0) return 0;
     const double inner = std::cos(l.radius * pi / 180), outer = std::cos(l.falloff * pi / 180);
     double value = std::pow(cosine, l.tightness);
     if (inner > 0) value *= smooth_step(outer, inner, cosine);
     return value;
+}
+
+bool is_parallel(const Light& light) {
+    return !light.is_emitter() && (light.said.parallel || light.said.cylinder);
 }
 
 double light_fading(const Light& light, double distance) {
@@ -144,7 +148,7 @@ double light_fading(const Light& light, double distance) {
 double light_attenuation(const Light& light, Vec3 position) {
     if (light.is_emitter()) return 1;
     const Vec3 d = position - light.said.position;
-    const double distance = light.said.parallel ? std::abs(glm::dot(d, light_axis(light))) : glm::length(d);
+    const double distance = is_parallel(light) ? std::abs(glm::dot(d, light_axis(light))) : glm::length(d);
     return light_falloff(light, position) * light_fading(light, distance);
 }
 
@@ -157,12 +161,15 @@ LightSample sample_delta(const Light& light, Vec3 position) {
     const LightSource& l = light.said;
     LightSample sample;
     const Vec3 d = l.position - position;
-    if (l.parallel) {
+    if (is_parallel(light)) {
         const Vec3 axis = light_axis(light);
-        sample.distance = -glm::dot(d, axis);
+        const double depth = -glm::dot(d, axis);
+        sample.distance = std::abs(depth);
         sample.direction = -axis;
-        sample.point = position - sample.distance * axis;
-        if (!(sample.distance > 0)) return sample; // the far side of the light's plane
+        // Behind the light's plane POV-Ray's parallel light shines all the same, and nothing shades it: the
+        // point then lies as good as at the position itself.
+        const double clear = std::max(glm::length(position), std::abs(depth)) * 0x1p-50;
+        sample.point = position - (depth > 0 ? depth : clear) * axis;
     } else {
         sample.distance = glm::length(d);
         if (!(sample.distance > 0)) return sample;

@@ -53,6 +53,8 @@ double light_falloff(const Light& light, Vec3 position);
 double light_fading(const Light& light, double distance);
 // Unit direction from the light's position to point_at; zero if they coincide.
 Vec3 light_axis(const Light& light);
+// Whether its rays all go along its axis: POV-Ray's parallel lights and also its cylinder lights.
+bool is_parallel(const Light& light);
 
 // A point of an emitter by area and a direction by cosine: what its photons start with. Every such pair
 // carries the same power.

@@ -156,7 +156,7 @@ struct Tracer {
     bool settle(const Light& light, const Hit& hit, bool diffuse, Flight& flight) const {
         if (flight.bounces == 0) flight.flux *= light_falloff(light, hit.position);
         if (diffuse && !flight.settled) {
-            const double d2 = light.said.parallel ? 1 : flight.length * flight.length;
+            const double d2 = is_parallel(light) ? 1 : flight.length * flight.length;
             flight.flux *= d2 * light_fading(light, flight.length);
             flight.settled = true;
         }
