@@ -10,11 +10,22 @@ namespace pnr {
 
 namespace {
 
+bool is_bounded(const Bounds& b) { return std::isfinite(glm::length(b.high - b.low)); }
+
 bool has_unbounded(const World& world) {
     return std::any_of(world.objects.begin(), world.objects.end(), [](const WorldObject& object) {
-        const Bounds& b = object.bounds;
-        return !is_empty(b) && !(std::isfinite(glm::length(b.high - b.low)));
+        return !is_empty(object.bounds) && !is_bounded(object.bounds);
     });
+}
+
+Focus make_focus(const World& world, bool unbounded) {
+    Bounds all;
+    for (const WorldObject& object : world.objects)
+        if (!is_empty(object.bounds) && is_bounded(object.bounds)) all = merge(all, object.bounds);
+    if (is_empty(all)) return {Vec3(0), world.radius};
+    if (unbounded) all = merge(all, world.camera.location);
+    const double radius = 0.5 * glm::length(all.high - all.low);
+    return {0.5 * (all.low + all.high), radius > 0 ? radius : world.radius};
 }
 
 Aim cone_aim(Vec3 axis, double one_minus_cos) {
@@ -25,16 +36,17 @@ Aim cone_aim(Vec3 axis, double one_minus_cos) {
     return aim;
 }
 
-// The directions from a light to the sphere about the origin: all of them from inside it.
-Aim aim_at_sphere(Vec3 from, double radius) {
-    const double distance = glm::length(from);
+// The directions from a point to a sphere: all of them from inside it.
+Aim aim_at_sphere(Vec3 point, const Focus& sphere) {
+    const Vec3 from = point - sphere.center;
+    const double radius = sphere.radius, distance = glm::length(from);
     if (distance <= radius) return cone_aim({0, 0, 1}, 2);
     const double sin2 = radius * radius / (distance * distance);
     return cone_aim(-from / distance, sin2 / (1 + std::sqrt(1 - sin2)));
 }
 
-Aim point_aim(const Light& light, double radius) {
-    const Aim scene = aim_at_sphere(light.said.position, radius);
+Aim point_aim(const Light& light, const Focus& sphere) {
+    const Aim scene = aim_at_sphere(light.said.position, sphere);
     double spot = 2; // 1 - cos of what the light itself lights
     if (light.said.spotlight)
         spot = 1 - std::max(0.0, std::cos(light.said.falloff * pi / 180));
@@ -44,13 +56,13 @@ Aim point_aim(const Light& light, double radius) {
     return spot < scene.one_minus_cos && spot > 0 ? cone_aim(light_axis(light), spot) : scene;
 }
 
-Aim parallel_aim(const Light& light, double radius) {
+Aim parallel_aim(const Light& light, const Focus& sphere) {
     Aim aim;
     aim.axis = light_axis(light);
-    const Vec3 to_origin = -light.said.position;
-    aim.center = light.said.position + to_origin - glm::dot(to_origin, aim.axis) * aim.axis;
-    aim.radius = radius;
-    if (light.said.cylinder && light.said.falloff < radius) {
+    const Vec3 to_center = sphere.center - light.said.position;
+    aim.center = sphere.center - glm::dot(to_center, aim.axis) * aim.axis;
+    aim.radius = sphere.radius;
+    if (light.said.cylinder && light.said.falloff < sphere.radius) {
         aim.center = light.said.position;
         aim.radius = light.said.falloff;
     }
@@ -58,13 +70,13 @@ Aim parallel_aim(const Light& light, double radius) {
     return aim;
 }
 
-std::vector<Aim> make_aims(const World& world, const Light& light, bool unbounded) {
-    const auto aim = [&](double radius) {
-        return is_parallel(light) ? parallel_aim(light, radius) : point_aim(light, radius);
+std::vector<Aim> make_aims(const Focus& focus, const Light& light, bool unbounded) {
+    const auto aim = [&](const Focus& sphere) {
+        return is_parallel(light) ? parallel_aim(light, sphere) : point_aim(light, sphere);
     };
-    std::vector<Aim> aims{aim(world.radius)};
+    std::vector<Aim> aims{aim(focus)};
     if (!unbounded) return aims;
-    const Aim wide = aim(emission_reach * world.radius);
+    const Aim wide = aim({focus.center, emission_reach * focus.radius});
     // Not worth a second one if they are nearly the same.
     if (wide.measure < 1.5 * aims[0].measure) return {wide};
     aims.push_back(wide);
@@ -75,10 +87,10 @@ std::vector<Aim> make_aims(const World& world, const Light& light, bool unbounde
 double mean(Color c) { return (static_cast<double>(c.x) + c.y + c.z) / 3; }
 
 // About the flux that a light sends into the scene.
-double light_weight(const World& world, const Light& light) {
+double light_weight(const Focus& focus, const Light& light) {
     if (light.is_emitter()) return mean(light.power);
-    const double scene = pi * world.radius * world.radius; // cross-section
-    const double distance = std::max(glm::length(light.said.position), world.radius);
+    const double scene = pi * focus.radius * focus.radius; // cross-section
+    const double distance = std::max(glm::distance(light.said.position, focus.center), focus.radius);
     double lit = scene;
     if (light.said.cylinder) lit = std::min(scene, pi * light.said.falloff * light.said.falloff);
     if (light.said.spotlight && !is_parallel(light)) {
@@ -88,9 +100,9 @@ double light_weight(const World& world, const Light& light) {
     return pi * mean(light.said.color) * lit * light_fading(light, distance);
 }
 
-std::int64_t photon_count(const World& world, const PhotonSettings& settings) {
+std::int64_t photon_count(const Focus& focus, const PhotonSettings& settings) {
     if (!(settings.spacing > 0)) return std::max<std::int64_t>(0, settings.count);
-    const double photons = 4 * pi * world.radius * world.radius / (settings.spacing * settings.spacing);
+    const double photons = 4 * pi * focus.radius * focus.radius / (settings.spacing * settings.spacing);
     return static_cast<std::int64_t>(std::clamp(photons, 1.0, 1e9));
 }
 
@@ -143,16 +155,17 @@ EmittedPhoton emit_parallel(const Light& light, const LightShare& share, Vec2 u)
 
 EmissionPlan plan_emission(const World& world, const PhotonSettings& settings) {
     EmissionPlan plan;
-    const std::int64_t wanted = photon_count(world, settings);
+    const bool unbounded = has_unbounded(world);
+    plan.focus = make_focus(world, unbounded);
+    const std::int64_t wanted = photon_count(plan.focus, settings);
     double total = 0;
     std::vector<double> weights;
     for (const Light& light : world.lights) {
-        const double weight = light_weight(world, light);
+        const double weight = light_weight(plan.focus, light);
         weights.push_back(weight > 0 && std::isfinite(weight) ? weight : 0);
         total += weights.back();
     }
     if (!(total > 0) || wanted == 0) return plan;
-    const bool unbounded = has_unbounded(world);
     double before = 0; // rounding the running sum keeps the parts' sum at `wanted`
     for (std::size_t i = 0; i < weights.size(); ++i) {
         if (!(weights[i] > 0)) continue;
@@ -163,7 +176,7 @@ EmissionPlan plan_emission(const World& world, const PhotonSettings& settings) {
         share.light = static_cast<int>(i);
         share.first = plan.count;
         share.count = std::max<std::int64_t>(1, part(before + weights[i]) - part(before));
-        if (!world.lights[i].is_emitter()) share.aims = make_aims(world, world.lights[i], unbounded);
+        if (!world.lights[i].is_emitter()) share.aims = make_aims(plan.focus, world.lights[i], unbounded);
         before += weights[i];
         plan.count += share.count;
         plan.shares.push_back(std::move(share));

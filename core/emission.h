@@ -30,7 +30,15 @@ struct LightShare {
     std::vector<Aim> aims; // of a POV-Ray light; shares add up to 1. Empty for emitters.
 };
 
+// The sphere that holds all bounded surfaces and, where unbounded ones stand beside them, the camera.
+// World::radius holds POV-Ray's lights too, which often stand a thousand radii away.
+struct Focus {
+    Vec3 center{0};
+    double radius = 1;
+};
+
 struct EmissionPlan {
+    Focus focus;
     std::vector<LightShare> shares; // by light
     std::int64_t count = 0;         // photons of a pass
 };
@@ -40,7 +48,7 @@ struct EmissionPlan {
 // where unbounded objects stand in it, half of them at the sphere of `reach` scene radii within which photons
 // matter.
 EmissionPlan plan_emission(const World& world, const PhotonSettings& settings);
-inline constexpr double emission_reach = 4; // scene radii
+inline constexpr double emission_reach = 4; // radii of the focus
 
 // A photon as it starts. flux of an emitter's photon: W. Of a POV-Ray light's: pi c / (N density); it becomes
 // the design's pi c s W d^2 f(d) / N at the hits, where s, d and f are known.

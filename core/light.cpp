@@ -52,14 +52,12 @@ double emitter_area(const Emitter& emitter) {
     return 0;
 }
 
-// Bound on how far rounding moves a point of the emitter; a rectangle stands in the BVH as two float
-// triangles.
+// Bound on how far rounding moves a point of the emitter; its surface stands in the BVH in double too.
 double emitter_error(const Light& light) {
     const Emitter& e = *light.said.emitter;
     const Vec3 p = glm::abs(light.said.position);
-    const double position = std::max({p.x, p.y, p.z});
-    if (e.shape != EmitterShape::rectangle) return (position + e.radius) * 0x1p-48;
-    return (position + glm::length(e.u) + glm::length(e.v)) * 0x1p-21;
+    const double extent = e.shape == EmitterShape::rectangle ? glm::length(e.u) + glm::length(e.v) : e.radius;
+    return (std::max({p.x, p.y, p.z}) + extent) * 0x1p-48;
 }
 
 Vec3 rectangle_normal(const Emitter& e) { return glm::normalize(glm::cross(e.u, e.v)); }

@@ -149,6 +149,7 @@ Outcome scatter_by_roles(const Material& material, const Hit& hit, const Bsdf& b
 
 struct Tracer {
     const World& world;
+    const Focus& focus;
     bool keep_normals;
     Chunk& chunk;
 
@@ -207,7 +208,7 @@ struct Tracer {
         const bool diffuse = has_diffuse(bsdf);
         if (!flight.booked) {
             if (!settle(light, *hit, diffuse, flight)) return false;
-            if (glm::length(hit->position) > emission_reach * world.radius) return false;
+            if (glm::distance(hit->position, focus.center) > emission_reach * focus.radius) return false;
         }
         if (!(largest(flight.flux) > 0)) return false;
         if (diffuse) store(*hit, bsdf, surface, flight);
@@ -255,7 +256,7 @@ PhotonMap trace_photons(const World& world, const PhotonSettings& settings, std:
         plan.count, photons_per_chunk, [&](std::int64_t begin, std::int64_t end, std::int64_t number) {
             if (stop) return;
             Chunk& chunk = chunks[static_cast<std::size_t>(number)];
-            const Tracer tracer{world, keep_normals, chunk};
+            const Tracer tracer{world, plan.focus, keep_normals, chunk};
             auto share = std::upper_bound(plan.shares.begin(), plan.shares.end(), begin,
                                           [](std::int64_t i, const LightShare& s) { return i < s.first; }) -
                          1;
