@@ -122,6 +122,7 @@ Rendering render_scene(const Scene& scene, const Settings& settings, const Wishe
         r.rendered = passes.run("render", [&](const Progress& progress) {
             return render(r.world, r.gbuffer, r.photons, r.settings, r.window, wishes.light_parts, progress);
         });
+        r.stopped = r.rendered.stopped;
     } catch (const Interrupted&) {
         r.stopped = true;
     }

@@ -158,11 +158,12 @@ bool wants_more(const Job& job, const std::vector<PixelSums>& first, int x, int 
     return false;
 }
 
-// Runs body(x, y, counts) for the pixels of a rectangle, tile by tile on all cores.
+// Runs body(x, y, counts) for the pixels of a rectangle, tile by tile on all cores. False: progress said
+// stop, and some pixels were left.
 template <class Body>
-void for_pixels(PixelRect r, const Progress& progress, std::int64_t done_before, std::int64_t total,
+bool for_pixels(PixelRect r, const Progress& progress, std::int64_t done_before, std::int64_t total,
                 Counts& counts, const Body& body) {
-    if (r.empty()) return;
+    if (r.empty()) return true;
     const int tx0 = r.x0 / tile, tx1 = (r.x1 + tile - 1) / tile, ty0 = r.y0 / tile,
               ty1 = (r.y1 + tile - 1) / tile;
     const int across = tx1 - tx0;
@@ -190,7 +191,7 @@ void for_pixels(PixelRect r, const Progress& progress, std::int64_t done_before,
                      counts.gathers += mine.gathers;
                      if (progress && !progress(done += pixels, total)) stop = true;
                  });
-    if (stop) throw Interrupted{};
+    return !stop;
 }
 
 std::int64_t area(PixelRect r) {
@@ -273,16 +274,20 @@ RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap&
     const PixelRect inner = grow(window, 0, width, height);
     const std::int64_t total = std::max<std::int64_t>(1, area(job.window) + area(inner));
     Counts counts;
-    for_pixels(job.window, progress, 0, total, counts, [&](int x, int y, Counts& mine) {
+    const bool sampled = for_pixels(job.window, progress, 0, total, counts, [&](int x, int y, Counts& mine) {
         if (needs_rays(job, x, y)) add_samples(job, x, y, first, job.sums[job.index(x, y)], mine);
     });
     // Which pixels want more is read from the first samples alone, so that no order of pixels can matter.
-    const std::vector<PixelSums> before = most > first ? job.sums : std::vector<PixelSums>{};
-    for_pixels(inner, progress, area(job.window), total, counts, [&](int x, int y, Counts& mine) {
+    const std::vector<PixelSums> before = sampled && most > first ? job.sums : std::vector<PixelSums>{};
+    const auto refine = [&](int x, int y, Counts& mine) {
         if (most > first && needs_rays(job, x, y) && wants_more(job, before, x, y))
             add_samples(job, x, y, most, job.sums[job.index(x, y)], mine);
         write_pixel(job, x, y, result);
-    });
+    };
+    result.stopped = !sampled || !for_pixels(inner, progress, area(job.window), total, counts, refine);
+    if (result.stopped) // what there is of each pixel
+        for (int y = inner.y0; y < inner.y1; ++y)
+            for (int x = inner.x0; x < inner.x1; ++x) write_pixel(job, x, y, result);
     result.faults = counts.faults;
     result.camera_rays = counts.rays;
     result.gathers = counts.gathers;

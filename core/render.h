@@ -27,13 +27,15 @@ struct RenderResult {
     SampleFaults faults;
     LightParts parts;
     std::int64_t camera_rays = 0, gathers = 0;
+    bool stopped = false; // progress said stop: pixels hold what they had got by then
 };
 
 // Renders `window` of the picture; `gbuffer` must hold it and one pixel more all round (image.h: grow). Its
 // pixels have the bits they have in the full picture. With Integrator::path every pixel gets samples_max
 // paths and the map is not looked at. Pixels wholly painted (coverage 1, seen directly, mix 1) get no rays;
 // of border pixels only the share that is not painted is rendered; behind mirrors and glass the branch that
-// leads to paint is left out. `map` may be empty (raytraced scenes).
+// leads to paint is left out. `map` may be empty (raytraced scenes). When progress says stop, the unfinished
+// picture is returned, not thrown away.
 RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap& map,
                     const Settings& settings, PixelRect window, bool want_parts,
                     const Progress& progress = {});
