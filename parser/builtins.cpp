@@ -174,7 +174,10 @@ double next_random(Parser& p, const Token& name, double stream) {
 
 double new_stream(Parser& p, const Token& name, double seed) {
     if (p.in.random_streams.size() >= 1'000'000) stop(p, name, "more than 1000000 streams of random numbers");
-    p.in.random_streams.push_back(static_cast<std::uint32_t>(static_cast<std::int64_t>(seed)));
+    // A number beyond 32 bits becomes the smallest one, as in the conversion that POV-Ray's processor makes.
+    const bool fits = seed > -2147483649.0 && seed < 2147483648.0;
+    p.in.random_streams.push_back(fits ? static_cast<std::uint32_t>(static_cast<std::int32_t>(seed))
+                                       : 0x80000000u);
     return static_cast<double>(p.in.random_streams.size() - 1);
 }
 
@@ -231,7 +234,7 @@ double defined_argument(Parser& p, const Token& name) {
     const Token identifier = next(p);
     if (identifier.kind != TokenKind::word)
         fail(p, name, fmt::format("defined() needs an identifier, found {}", token_text(p, identifier)));
-    return is_reserved(identifier.symbol) || is_declared(p.in, identifier.symbol);
+    return is_declared(p.in, identifier.symbol);
 }
 
 double bits(Parser& p, const Token& name) {

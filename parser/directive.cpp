@@ -60,13 +60,18 @@ bool condition(Parser& p, const Token& directive) {
     return is_true(condition_value(p, directive));
 }
 
-// Behind the #end of the construct that `branch` belongs to.
-void jump_behind_end(Parser& p, const Token& branch) {
+// The #end of the construct that `branch` belongs to.
+const Token& end_of(Parser& p, const Token& branch) {
     const Token* token = &branch;
     while (static_cast<Keyword>(token->symbol) != "end"_kw) {
         if (token->value == no_jump) fail(p, branch, "there is no `#if` or `#switch` that this belongs to");
         token = &token_at(p, token->value);
     }
+    return *token;
+}
+
+void jump_behind_end(Parser& p, const Token& branch) {
+    const Token* token = &end_of(p, branch);
     p.in.frames.back().position = static_cast<std::uint32_t>(token - p.in.frames.back().tokens) + 1;
 }
 
@@ -110,6 +115,13 @@ void fall_through(Parser& p, const Token& branch) {
     parse_condition(p);
     if (accept(p, ',')) parse_condition(p);
     expect(p, ')', "to close the condition");
+}
+
+// An #else reached from above: behind an #if it is passed over; in a #switch it is one more case to fall
+// into.
+void else_directive(Parser& p, const Token& branch) {
+    const Token& opener = token_at(p, end_of(p, branch).value);
+    if (static_cast<Keyword>(opener.symbol) != "switch"_kw) jump_behind_end(p, branch);
 }
 
 void count_turn(Parser& p, const Token& opener) {
@@ -276,6 +288,7 @@ void dispatch(Parser& p, const Token& directive) {
     case "ifndef"_kw:
         return if_directive(p, directive);
     case "else"_kw:
+        return else_directive(p, directive);
     case "elseif"_kw:
         return jump_behind_end(p, directive);
     case "switch"_kw:

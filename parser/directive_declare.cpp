@@ -105,7 +105,7 @@ bool ifdef_condition(Parser& p, const Token& directive) {
         return value != nullptr;
     }
     expect_raw(p, ')', directive);
-    return value != nullptr || is_reserved(name.symbol);
+    return value != nullptr;
 }
 
 void macro_directive(Parser& p, const Token& directive) {

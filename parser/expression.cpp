@@ -228,9 +228,7 @@ Vec2 parse_uv(Parser& p) {
 }
 
 ColorFT parse_color(Parser& p) {
-    accept(p, "color"_kw);
     VectorValue value = at_color(p) ? color_expression(p) : parse_conditional(p, Angles::bracket);
-    if (value.size == 1) promote(value, 3); // opaque
     promote(value, 5);
     const auto f = [&](int i) { return static_cast<float>(value.v[i]); };
     return {{f(0), f(1), f(2)}, f(3), f(4)};

@@ -302,7 +302,9 @@ VectorValue color_expression(Parser& p) {
         color = color_components(p, word);
     } else if (!(token.kind == TokenKind::word && is_channel_word(static_cast<Keyword>(token.symbol)))) {
         color = parse_operand_expression(p, Angles::bracket);
-        if (color.size == 1) promote(color, 3);
+        if (color.size == 1 && color.v[0] != 0)
+            warn(p, first, "one number as a colour sets filter and transmit too",
+                 "`rgb` before it leaves them 0");
         promote(color, 5);
         color.is_color = true;
     }
