@@ -197,10 +197,8 @@ double fresnel_dielectric(double cos_outgoing, double eta) {
 Color interior_transmittance(const Interior& interior, double distance) {
     if (!(interior.fade_power > 0) || !(interior.fade_distance > 0) || !(distance > 0)) return Color(1);
     const double depth = distance / interior.fade_distance;
-    if (interior.fade_power >= 1000) { // POV-Ray's exponential law
-        const float passed = static_cast<float>(std::exp(-depth));
-        return interior.fade_color + (Color(1) - interior.fade_color) * passed;
-    }
+    if (interior.fade_power >= 1000) // Beer and Lambert's law, as POV-Ray has it from this power on
+        return glm::exp((interior.fade_color - Color(1)) * static_cast<float>(depth));
     const float passed = static_cast<float>(1 / (1 + std::pow(depth, interior.fade_power)));
     return interior.fade_color + (Color(1) - interior.fade_color) * passed;
 }
