@@ -43,6 +43,8 @@ AxisSource make_axis_source(const World& world, int object, FieldSource source, 
     made.vector = style.field_vector;
     made.point = style.field_point;
     if (source == FieldSource::light) made.lights = world.lights;
+    if (source == FieldSource::curvature_min || source == FieldSource::curvature_max)
+        made.curvature = std::make_shared<const CurvatureField>(make_curvature_field(world, object));
     if (source == FieldSource::gradient) {
         const Bounds& bounds = world.objects[static_cast<std::size_t>(object)].bounds;
         const double extent = is_empty(bounds) ? world.radius : glm::distance(bounds.low, bounds.high);
@@ -64,9 +66,11 @@ Vec3 eval_axis_source(const AxisSource& source, Vec3 position, Vec3 normal) {
         return light_direction(source, position);
     case FieldSource::gradient:
         return pigment_direction(source, position, normal);
-    case FieldSource::seeds:
     case FieldSource::curvature_min:
+        return eval_curvature_axis(*source.curvature, position, normal, false);
     case FieldSource::curvature_max:
+        return eval_curvature_axis(*source.curvature, position, normal, true);
+    case FieldSource::seeds:
     case FieldSource::along:
         break;
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/world.h"
+#include "npr/curvature.h"
 
 #include <memory>
 
@@ -15,9 +16,11 @@ struct AxisSource {
     std::vector<Light> lights;
     Pigment pigment;
     double reach = 1e-3; // distance over which the pigment's gradient is taken, world units
+    std::shared_ptr<const CurvatureField> curvature;
 };
 
-// `source` is not FieldSource::seeds. Vectors and points of the style are in world space.
+// `source` is not FieldSource::seeds. The world must outlive the result. Vectors and points of the style are
+// in world space.
 AxisSource make_axis_source(const World& world, int object, FieldSource source, const PaintStyle& style);
 // An axis at a place of the object, of any length; its tangent part counts. Zero where the source says
 // nothing.
