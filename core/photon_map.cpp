@@ -34,20 +34,35 @@ void permute(std::vector<T>& values, const std::vector<std::uint32_t>& order) {
     values = std::move(sorted);
 }
 
-// The radius that holds `k` photons, as nine tenths of a sample of the map's photons see it.
-float suiting_radius(const PhotonMap& map, int k) {
+// The radius that holds `k` of a tree's photons, as nine tenths of a sample of these photons see it.
+float suiting_radius(const PhotonMap& map, const KdTree& tree, int k) {
     constexpr std::size_t samples = 256;
-    const std::size_t step = std::max<std::size_t>(1, map.photons.size() / samples);
+    const std::size_t step = std::max<std::size_t>(1, tree.count / samples);
     std::vector<Neighbour> found;
     std::vector<float> distances;
-    for (std::size_t i = step / 2; i < map.photons.size(); i += step) {
-        find_nearest(map.tree, map.photons[i].position, k, std::numeric_limits<float>::infinity(), found);
+    for (std::size_t i = step / 2; i < tree.count; i += step) {
+        const std::size_t photon = tree.order.empty() ? i : tree.order[i];
+        find_nearest(tree, map.photons[photon].position, k, std::numeric_limits<float>::infinity(), found);
         if (!found.empty()) distances.push_back(std::sqrt(found.back().distance2));
     }
     if (distances.empty()) return 0;
     const auto ninth = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() * 9 / 10);
     std::nth_element(distances.begin(), ninth, distances.end());
     return *ninth;
+}
+
+// Photons must already be in their final order.
+void build_caustic_tree(PhotonMap& map) {
+    std::vector<Vec3f> positions;
+    std::vector<std::uint32_t> indices;
+    for (std::size_t i = 0; i < map.photons.size(); ++i) {
+        if (map.photons[i].path() != PhotonPath::caustic) continue;
+        positions.push_back(map.photons[i].position);
+        indices.push_back(static_cast<std::uint32_t>(i));
+    }
+    map.caustic = build_kdtree(positions);
+    for (std::uint32_t& index : map.caustic.order) index = indices[index];
+    map.caustic_radius = suiting_radius(map, map.caustic, 50);
 }
 
 } // namespace
@@ -58,7 +73,8 @@ void build_photon_tree(PhotonMap& map) {
     if (!map.normals.empty()) permute(map.normals, map.tree.order);
     map.tree.order.clear();
     map.tree.order.shrink_to_fit();
-    if (!(map.radius > 0)) map.radius = suiting_radius(map, 100);
+    if (!(map.radius > 0)) map.radius = suiting_radius(map, map.tree, 100);
+    build_caustic_tree(map);
 }
 
 // ---- files
@@ -184,7 +200,10 @@ PhotonMap load_photons(std::uint64_t scene_hash, const std::filesystem::path& fi
     if (!map.photons.empty()) std::memcpy(map.photons.data(), at, header.photons * sizeof(Photon));
     at += header.photons * sizeof(Photon);
     if (!map.normals.empty()) std::memcpy(map.normals.data(), at, header.normals * sizeof(Vec3f));
-    if (header.has_tree != 0) map.tree = kdtree_of_leaf_order(positions_of(map));
+    if (header.has_tree != 0) {
+        map.tree = kdtree_of_leaf_order(positions_of(map));
+        build_caustic_tree(map);
+    }
     return map;
 }
 

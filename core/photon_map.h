@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 namespace pnr {
@@ -31,6 +32,8 @@ inline std::uint32_t photon_tag(int object, bool npr, PhotonPath path) {
 }
 static_assert(sizeof(Photon) == 40);
 
+struct IrradianceField; // irradiance_field.h
+
 // Flux in W, for the balance emitted = absorbed + escaped (in expectation; design.md section 5).
 struct PowerBalance {
     glm::dvec3 emitted{0}, absorbed{0}, escaped{0};
@@ -39,16 +42,20 @@ struct PowerBalance {
 struct PhotonMap {
     std::vector<Photon> photons; // in emission order, after build_photon_tree in the tree's leaf order; the
                                  // same for any number of threads
-    std::vector<Vec3f> normals; // unit, of the side hit, one per photon; empty when nothing is painted
-    KdTree tree;                // over photons' positions
+    std::vector<Vec3f> normals;  // unit, of the side hit, one per photon; empty when nothing is painted
+    KdTree tree;                 // over photons' positions
+    KdTree caustic; // over those of the caustic photons alone; `order` holds indices into photons
     std::int64_t emitted = 0;
     PowerBalance balance;
-    float radius = 0; // gather radius cap in world units that suits this map
+    float radius = 0;         // gather radius cap in world units that suits this map
+    float caustic_radius = 0; // likewise for its caustic photons, which lie closer; 0 if there are none
+    std::shared_ptr<const IrradianceField>
+        field; // smooth indirect light over this map; null: density estimates alone
 };
 
 // Sorts photons and normals into the leaf order of a kd-tree over them, so that neighbours lie together in
 // memory, and names a gather radius if the map has none: what holds 100 photons for nine tenths of the map's
-// photons.
+// photons. Caustic photons get a tree and a radius (for 50) of their own.
 void build_photon_tree(PhotonMap& map);
 
 // Own versioned binary file with a checksum and the scene's hash. load throws FileError for a file that can't

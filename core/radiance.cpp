@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/radiance.h"
 
+#include "core/irradiance_field.h"
 #include "core/sampling.h"
 
 namespace pnr {
@@ -99,15 +100,20 @@ Color light_by_bsdf_directions(const World& world, const Hit& hit, const Bsdf& b
 
 } // namespace
 
-Color gather(const World&, const PhotonMap& map, const GatherSettings& settings, Vec3 position,
-             const Bsdf& bsdf, Vec3 outgoing, std::vector<Neighbour>& scratch) {
+namespace {
+
+Color density_estimate(const PhotonMap& map, const GatherSettings& settings, Vec3 position, const Bsdf& bsdf,
+                       Vec3 outgoing, std::vector<Neighbour>& scratch) {
     if (map.photons.empty() || settings.count < 2 || !has_diffuse(bsdf)) return Color{0};
     const Vec3f at(position);
+    const bool caustics_alone = settings.caustic && !settings.direct && !settings.indirect;
+    const KdTree& tree = caustics_alone ? map.caustic : map.tree;
+    if (tree.count == 0) return Color{0};
     float radius = settings.radius;
-    find_nearest(map.tree, at, settings.count, radius, scratch);
+    find_nearest(tree, at, settings.count, radius, scratch);
     for (int widened = 0; widened < 2 && static_cast<int>(scratch.size()) < settings.least; ++widened) {
         radius *= 2;
-        find_nearest(map.tree, at, settings.count, radius, scratch);
+        find_nearest(tree, at, settings.count, radius, scratch);
     }
     if (scratch.empty()) return Color{0};
     // The k-th photon gives the radius and is left out; so is any other at just its distance (weight 0, or a
@@ -134,6 +140,44 @@ Color gather(const World&, const PhotonMap& map, const GatherSettings& settings,
     }
     sum /= static_cast<float>(pi) * radius2;
     return lambertian ? sum * bsdf.diffuse / static_cast<float>(pi) : sum;
+}
+
+// Reflected indirect light: the diffuse lobe from the field, the glossy one from the photons, and both from
+// them where the field knows too little.
+Color field_estimate(const World& world, const PhotonMap& map, const GatherSettings& settings, Vec3 position,
+                     const Bsdf& bsdf, Vec3 outgoing, std::vector<Neighbour>& scratch) {
+    const FieldIrradiance found = field_irradiance(*map.field, world, map, position, bsdf.normal, scratch);
+    Color sum = bsdf.diffuse * found.irradiance * (found.trust / static_cast<float>(pi));
+    Bsdf rest = bsdf;
+    rest.diffuse *= 1 - found.trust;
+    GatherSettings alone = settings;
+    alone.caustic = false;
+    if (has_diffuse(rest)) sum += density_estimate(map, alone, position, rest, outgoing, scratch);
+    return sum;
+}
+
+} // namespace
+
+Color gather(const World& world, const PhotonMap& map, const GatherSettings& settings, Vec3 position,
+             const Bsdf& bsdf, Vec3 outgoing, std::vector<Neighbour>& scratch) {
+    if (settings.direct || !settings.field || !map.field)
+        return density_estimate(map, settings, position, bsdf, outgoing, scratch);
+    Color sum{0};
+    if (settings.indirect) sum += field_estimate(world, map, settings, position, bsdf, outgoing, scratch);
+    if (settings.caustic) {
+        const GatherSettings caustic = caustic_gather(map, settings);
+        sum += density_estimate(map, caustic, position, bsdf, outgoing, scratch);
+    }
+    return sum;
+}
+
+GatherSettings caustic_gather(const PhotonMap& map, const GatherSettings& settings) {
+    GatherSettings caustic = settings;
+    caustic.direct = caustic.indirect = false;
+    caustic.caustic = true;
+    caustic.least = 0; // where few fall it is dark, not blurred
+    caustic.radius = std::min(settings.radius, map.caustic_radius);
+    return caustic;
 }
 
 GatherSettings default_gather(const World& world, const PhotonMap& map, const PhotonSettings& settings) {

@@ -20,6 +20,7 @@ struct GatherSettings {
     bool direct = false; // also photons of path `direct` (else those are left to shadow rays)
     bool indirect = true, caustic = true;
     int least = 0; // where the cap holds fewer photons it is doubled, twice at most (POV-Ray's gather min)
+    bool field = true; // indirect light from PhotonMap::field where the map has one, instead of its density
 };
 
 // Photon density estimate of the reflected radiance: sum of f_r * flux * kernel. Consistent: when the k-th
@@ -28,6 +29,8 @@ struct GatherSettings {
 // rejected. `scratch` is reused between calls.
 Color gather(const World& world, const PhotonMap& map, const GatherSettings& settings, Vec3 position,
              const Bsdf& bsdf, Vec3 outgoing, std::vector<Neighbour>& scratch);
+// The same for the caustic photons alone, which lie closer.
+GatherSettings caustic_gather(const PhotonMap& map, const GatherSettings& settings);
 // The settings that suit a map and a scene when the author gave none.
 GatherSettings default_gather(const World& world, const PhotonMap& map, const PhotonSettings& settings);
 

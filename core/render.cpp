@@ -235,9 +235,8 @@ void choose_gathers(Shading& shading, const PhotonSettings& photons) {
     shading.indirect.count = shading.caustic.count = 0;
     if (shading.map.photons.empty() || shading.world.illumination == Illumination::raytraced) return;
     const GatherSettings both = default_gather(shading.world, shading.map, photons);
-    shading.caustic = both;
-    shading.caustic.indirect = false;
-    if (!shading.world.has_specular) shading.caustic.count = 0;
+    shading.caustic = caustic_gather(shading.map, both);
+    if (shading.map.caustic.count == 0) shading.caustic.count = 0;
     if (shading.world.illumination != Illumination::photon_mapped) return;
     shading.indirect = both;
     shading.indirect.caustic = false;

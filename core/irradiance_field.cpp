@@ -1,0 +1,391 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/irradiance_field.h"
+
+#include "core/gbuffer.h"
+#include "core/radiance.h"
+
+#include <atomic>
+#include <mutex>
+#include <unordered_map>
+
+namespace pnr {
+namespace {
+
+// Strata of a final gather: rings in elevation, sectors in azimuth; sectors near pi times the rings make them
+// even.
+constexpr int rings = 14, sectors = 44;
+// Share of the mean distance to what a record sees within which it is trusted.
+constexpr double trusted_share = 0.35;
+// A level's records reach so many of its spacings.
+constexpr double reach_in_spacings = 1.75;
+// Sum of weights that is enough.
+constexpr float enough = 0.7f;
+constexpr int most_levels = 6;
+// One in so many photons gets its irradiance computed beforehand, from so many neighbours.
+constexpr std::size_t lit_stride = 4;
+constexpr int lit_neighbours = 64;
+
+// Irradiance and its derivatives when the point moves or the normal turns, a vector for each channel.
+struct Record {
+    Color irradiance{0};
+    std::array<Vec3f, 3> moved{}, turned{};
+    float reach = 0; // world units, before the level's own limit
+};
+
+struct Site {
+    Vec3f position, normal;
+    std::uint32_t photon = 0; // that marks it
+};
+
+struct Level {
+    float spacing = 0;
+    std::vector<Site> sites;
+    KdTree tree;
+    std::unique_ptr<std::once_flag[]> asked;
+    std::vector<Record> records; // of the sites, filled when first asked for
+};
+
+// Irradiance from all photons at one of them.
+struct LitPoint {
+    Vec3f normal{0};
+    Color irradiance{0};
+};
+
+// The surface under a photon, met again by its ray: a photon's record knows neither surface nor normal.
+// Nothing if something else is met first (a sheet thinner than the step back).
+std::optional<Hit> hit_of_photon(const World& world, const Photon& photon) {
+    const Vec3 direction = glm::normalize(Vec3(photon.direction));
+    const double back = 0x1p-12 * world.radius, slack = 0x1p-20 * world.radius;
+    const Ray ray{Vec3(photon.position) - direction * back, direction, 0, 2 * back};
+    std::optional<Hit> hit = closest_hit(world, ray, RayKind::photon);
+    if (!hit || glm::length(hit->position - Vec3(photon.position)) > slack) return std::nullopt;
+    return hit;
+}
+
+Vec3 lit_side(const Hit& hit, const Photon& photon) {
+    return glm::dot(hit.normal, Vec3(photon.direction)) < 0 ? hit.normal : -hit.normal;
+}
+
+} // namespace
+
+struct IrradianceField {
+    mutable std::vector<Level> levels;
+    std::vector<LitPoint> lit;
+    KdTree lit_tree;
+    mutable std::atomic<std::int64_t> records{0};
+    std::uint64_t seed = 0;
+};
+
+namespace {
+
+// ---- sites
+// --------------------------------------------------------------------------------------------------------
+
+// Cells of the width of a spacing, so that only the 27 about a point can hold a site too near to it.
+struct Cells {
+    float width;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> sites;
+
+    std::uint64_t key(glm::ivec3 c) const {
+        return (static_cast<std::uint64_t>(c.x & 0x1fffff) << 42) |
+               (static_cast<std::uint64_t>(c.y & 0x1fffff) << 21) |
+               static_cast<std::uint64_t>(c.z & 0x1fffff);
+    }
+    glm::ivec3 cell(Vec3f p) const { return glm::ivec3(glm::floor(p / width)); }
+};
+
+// Whether a site of the same sheet and side lies nearer than the spacing.
+bool crowded(const Level& level, const Cells& cells, const Photon& photon) {
+    const glm::ivec3 c = cells.cell(photon.position);
+    for (int dz = -1; dz <= 1; ++dz)
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx) {
+                const auto found = cells.sites.find(cells.key(c + glm::ivec3(dx, dy, dz)));
+                if (found == cells.sites.end()) continue;
+                for (const std::uint32_t i : found->second) {
+                    const Site& site = level.sites[i];
+                    const Vec3f apart = photon.position - site.position;
+                    if (glm::dot(apart, apart) < level.spacing * level.spacing &&
+                        glm::dot(photon.direction, site.normal) < 0 &&
+                        std::abs(glm::dot(apart, site.normal)) < 0.3f * level.spacing)
+                        return true;
+                }
+            }
+    return false;
+}
+
+// Poisson-disc sites by dart throwing, the photons as darts.
+Level make_level(const World& world, const PhotonMap& map, float spacing) {
+    Level level;
+    level.spacing = spacing;
+    Cells cells{spacing, {}};
+    for (std::size_t i = 0; i < map.photons.size(); ++i) {
+        const Photon& photon = map.photons[i];
+        if (crowded(level, cells, photon)) continue;
+        const std::optional<Hit> hit = hit_of_photon(world, photon);
+        if (!hit) continue;
+        cells.sites[cells.key(cells.cell(photon.position))].push_back(
+            static_cast<std::uint32_t>(level.sites.size()));
+        level.sites.push_back(
+            {photon.position, Vec3f(lit_side(*hit, photon)), static_cast<std::uint32_t>(i)});
+    }
+    std::vector<Vec3f> positions;
+    positions.reserve(level.sites.size());
+    for (const Site& site : level.sites) positions.push_back(site.position);
+    level.tree = build_kdtree(positions);
+    level.asked = std::make_unique<std::once_flag[]>(level.sites.size());
+    level.records.resize(level.sites.size());
+    return level;
+}
+
+// ---- light that gather rays meet
+// ----------------------------------------------------------------------------------
+
+void light_points(const World& world, const PhotonMap& map, IrradianceField& field,
+                  const Progress& progress) {
+    const std::size_t count = (map.photons.size() + lit_stride - 1) / lit_stride;
+    field.lit.resize(count);
+    std::vector<Vec3f> positions(count);
+    const GatherSettings settings{lit_neighbours, map.radius, GatherKernel::epanechnikov, true, true, true, 0,
+                                  false};
+    std::atomic<std::int64_t> done{0};
+    std::atomic<bool> stop{false};
+    parallel_for(
+        static_cast<std::int64_t>(count), 1024, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+            std::vector<Neighbour> scratch;
+            for (std::int64_t n = begin; n < end && !stop; ++n) {
+                const auto i = static_cast<std::size_t>(n);
+                const Photon& photon = map.photons[i * lit_stride];
+                positions[i] = photon.position;
+                const std::optional<Hit> hit = hit_of_photon(world, photon);
+                if (!hit) continue; // its normal stays 0: no ray takes it
+                Bsdf meter;
+                meter.normal = meter.geometric = lit_side(*hit, photon);
+                meter.diffuse = Color{static_cast<float>(pi)};
+                field.lit[i] = {Vec3f(meter.normal),
+                                gather(world, map, settings, hit->position, meter, meter.normal, scratch)};
+            }
+            if (progress && !progress(done += end - begin, static_cast<std::int64_t>(count))) stop = true;
+        });
+    if (stop) throw Interrupted{};
+    field.lit_tree = build_kdtree(positions);
+}
+
+// Irradiance at a point that a gather ray met, from the nearest lit point of its side and about its plane.
+Color lit_irradiance(const IrradianceField& field, Vec3 position, Vec3 normal,
+                     std::vector<Neighbour>& scratch) {
+    const Vec3f n(normal);
+    for (const int neighbours : {1, 8}) { // most often the nearest will do
+        find_nearest(field.lit_tree, Vec3f(position), neighbours, std::numeric_limits<float>::infinity(),
+                     scratch);
+        for (const Neighbour& near : scratch)
+            if (glm::dot(field.lit[near.index].normal, n) > 0.7f) return field.lit[near.index].irradiance;
+    }
+    return Color{0};
+}
+
+// Radiance that a gather ray brings: reflected by the first diffuse surface, seen straight or through
+// specular ones. What emitters send is left out: it is direct or caustic light.
+Color gathered_radiance(const IrradianceField& field, const World& world, Ray ray, Rng& rng, double& distance,
+                        std::vector<Neighbour>& scratch) {
+    constexpr int most_bounces = 8; // specular ones
+    Color throughput{1};
+    distance = infinity;
+    for (int bounce = 0; bounce < most_bounces; ++bounce) {
+        const std::optional<Hit> hit = closest_hit(world, ray, RayKind::specular);
+        if (!hit) return throughput * world.background;
+        if (bounce == 0) distance = hit->t;
+        if (world.surfaces[hit->surface].light >= 0) return Color{0};
+        const Vec3 outgoing = -ray.direction;
+        const Bsdf bsdf = make_bsdf(world, *hit, outgoing);
+        if (bounce > 0) throughput *= segment_transmittance(world, *hit, bsdf, hit->t);
+        const double spread = has_diffuse(bsdf) ? max_component(bsdf.diffuse + bsdf.glossy) : 0.f;
+        const double mirror = max_component(bsdf.mirror), transmit = max_component(bsdf.transmit);
+        const double sum = spread + mirror + transmit;
+        if (!(sum > 0)) return throughput * bsdf.emission;
+        const double u = mirror + transmit > 0 ? rng.uniform() * sum : 0;
+        if (u < spread || mirror + transmit == 0) {
+            const Color reflected = (bsdf.diffuse + bsdf.glossy) / static_cast<float>(pi) *
+                                    lit_irradiance(field, hit->position, bsdf.geometric, scratch);
+            return throughput * (bsdf.emission + reflected * static_cast<float>(sum / spread));
+        }
+        const bool reflect = u < spread + mirror || transmit == 0;
+        const ChainBranch branch = reflect ? ChainBranch::mirror : ChainBranch::transmit;
+        throughput *= branch_weight(bsdf, branch) * static_cast<float>(sum / (reflect ? mirror : transmit));
+        ray = leave(*hit, branch_direction(bsdf, outgoing, branch));
+    }
+    return Color{0};
+}
+
+// ---- records
+// --------------------------------------------------------------------------------------------------------
+
+struct GatherRays {
+    std::array<std::array<Color, sectors>, rings> radiance;
+    std::array<std::array<double, sectors>, rings> distance;
+};
+
+GatherRays shoot(const IrradianceField& field, const World& world, const Hit& hit, const Frame& frame,
+                 Rng& rng) {
+    GatherRays rays;
+    std::vector<Neighbour> scratch;
+    for (int j = 0; j < rings; ++j)
+        for (int k = 0; k < sectors; ++k) {
+            const Vec2 u = rng.uniform2();
+            const double sin2 = (j + u.x) / rings, angle = 2 * pi * (k + u.y) / sectors;
+            const double sine = std::sqrt(sin2);
+            const Vec3 direction =
+                glm::normalize(sine * std::cos(angle) * frame.x + sine * std::sin(angle) * frame.y +
+                               std::sqrt(1 - sin2) * frame.z);
+            const auto r = static_cast<std::size_t>(j), s = static_cast<std::size_t>(k);
+            rays.radiance[r][s] =
+                gathered_radiance(field, world, leave(hit, direction), rng, rays.distance[r][s], scratch);
+        }
+    return rays;
+}
+
+// Adds the outer product of a vector and a colour to one gradient a channel.
+void add(std::array<glm::dvec3, 3>& gradient, Vec3 v, Color c, double factor) {
+    for (int i = 0; i < 3; ++i) gradient[static_cast<std::size_t>(i)] += v * (factor * c[i]);
+}
+
+// The gradients of Ward and Heckbert 1992, equations for cosine-distributed strata.
+void find_gradients(const GatherRays& rays, const Frame& frame, Record& record) {
+    std::array<glm::dvec3, 3> moved{}, turned{};
+    for (int k = 0; k < sectors; ++k) {
+        const auto s = static_cast<std::size_t>(k),
+                   before = static_cast<std::size_t>((k + sectors - 1) % sectors);
+        const double middle = 2 * pi * (k + 0.5) / sectors, low = 2 * pi * k / sectors;
+        const Vec3 outward = std::cos(middle) * frame.x + std::sin(middle) * frame.y;
+        const Vec3 across = -std::sin(middle) * frame.x + std::cos(middle) * frame.y;
+        const Vec3 across_low = -std::sin(low) * frame.x + std::cos(low) * frame.y;
+        for (int j = 0; j < rings; ++j) {
+            const auto r = static_cast<std::size_t>(j);
+            const Color here = rays.radiance[r][s];
+            const double sine = std::sqrt((j + 0.5) / rings);
+            // (n x n') points across for a normal n' that turns outward in a right-handed frame.
+            add(turned, across, here, sine / std::sqrt(1 - sine * sine) * pi / (rings * sectors));
+            const double sine_low = std::sqrt(static_cast<double>(j) / rings);
+            const double sine_high = std::sqrt((j + 1.0) / rings);
+            if (j > 0) {
+                const double near = std::min(rays.distance[r][s], rays.distance[r - 1][s]);
+                const double cos2 = 1 - sine_low * sine_low;
+                add(moved, outward, here - rays.radiance[r - 1][s],
+                    2 * pi / sectors * sine_low * cos2 / near);
+            }
+            const double near = std::min(rays.distance[r][s], rays.distance[r][before]);
+            add(moved, across_low, here - rays.radiance[r][before], (sine_high - sine_low) / near);
+        }
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        record.moved[i] = Vec3f(moved[i]);
+        record.turned[i] = Vec3f(turned[i]);
+    }
+}
+
+// How far a record may be trusted: a share of the harmonic mean distance, and no farther than its own
+// gradient allows.
+float trusted_reach(const GatherRays& rays, const Record& record, double scene_radius) {
+    double inverse = 0;
+    for (const auto& ring : rays.distance)
+        for (const double d : ring) inverse += 1 / std::max(d, 1e-9 * scene_radius);
+    double reach = inverse > 0 ? trusted_share * rings * sectors / inverse : scene_radius;
+    const Vec3f slope = record.moved[0] * 0.2126f + record.moved[1] * 0.7152f + record.moved[2] * 0.0722f;
+    const double steep = glm::length(slope);
+    if (steep > 0) reach = std::min(reach, luminance(record.irradiance) / steep);
+    return static_cast<float>(reach);
+}
+
+Record make_record(const IrradianceField& field, const World& world, const PhotonMap& map, const Site& site) {
+    Record record;
+    const Photon& photon = map.photons[site.photon];
+    const std::optional<Hit> hit = hit_of_photon(world, photon);
+    if (!hit) return record; // cannot be: the site was made from such a hit
+    Rng rng = make_rng(field.seed, Pass::render, hash_words(site.photon, 0x6a09e667f3bcc908ull));
+    const Frame frame = make_frame(Vec3(site.normal));
+    const GatherRays rays = shoot(field, world, *hit, frame, rng);
+    for (const auto& ring : rays.radiance)
+        for (const Color c : ring) record.irradiance += c;
+    record.irradiance *= static_cast<float>(pi / (rings * sectors));
+    find_gradients(rays, frame, record);
+    record.reach = trusted_reach(rays, record, world.radius);
+    return record;
+}
+
+const Record& record_of(const IrradianceField& field, Level& level, std::uint32_t index, const World& world,
+                        const PhotonMap& map) {
+    std::call_once(level.asked[index], [&] {
+        level.records[index] = make_record(field, world, map, level.sites[index]);
+        ++field.records;
+    });
+    return level.records[index];
+}
+
+// Irradiance that a record foretells for another point and normal.
+Color extrapolate(const Record& record, const Site& site, Vec3f position, Vec3f normal) {
+    const Vec3f apart = position - site.position, turn = glm::cross(site.normal, normal);
+    Color result = record.irradiance;
+    for (int i = 0; i < 3; ++i) {
+        const auto c = static_cast<std::size_t>(i);
+        const float change = glm::dot(record.moved[c], apart) + glm::dot(record.turned[c], turn);
+        result[i] = std::clamp(result[i] + change, 0.25f * result[i], 2.5f * result[i]);
+    }
+    return result;
+}
+
+} // namespace
+
+std::shared_ptr<const IrradianceField> make_irradiance_field(const World& world, const PhotonMap& map,
+                                                             const Progress& progress) {
+    auto field = std::make_shared<IrradianceField>();
+    if (map.photons.empty() || map.tree.count == 0) return field;
+    light_points(world, map, *field, progress);
+    // From a tenth of the scene's radius down to the mean distance of photons, by halves.
+    const double photon_distance = std::sqrt(pi / 100) * map.radius;
+    std::vector<float> spacings;
+    for (double s = world.radius / 10; spacings.size() < most_levels && s > photon_distance; s /= 2)
+        spacings.push_back(static_cast<float>(s));
+    field->levels.resize(spacings.size());
+    parallel_for(static_cast<std::int64_t>(spacings.size()), 1,
+                 [&](std::int64_t begin, std::int64_t, std::int64_t) {
+                     const auto i = static_cast<std::size_t>(begin);
+                     field->levels[i] = make_level(world, map, spacings[i]);
+                 });
+    return field;
+}
+
+FieldIrradiance field_irradiance(const IrradianceField& field, const World& world, const PhotonMap& map,
+                                 Vec3 position, Vec3 normal, std::vector<Neighbour>& scratch) {
+    const Vec3f p(position), n(normal);
+    Color sum{0};
+    float weights = 0;
+    for (std::size_t l = 0; l < field.levels.size() && weights < enough; ++l) {
+        Level& level = field.levels[l];
+        const bool last = l + 1 == field.levels.size();
+        const auto reach = static_cast<float>(reach_in_spacings) * level.spacing;
+        // What the coarser levels lack, so that a level fades in where they cease to be enough.
+        const float share = 1 - weights / enough;
+        find_within(level.tree, p, reach, scratch);
+        for (const Neighbour& near : scratch) {
+            const Site& site = level.sites[near.index];
+            const float aligned = glm::dot(site.normal, n);
+            if (aligned < 0.75f) continue;
+            const float distance = std::sqrt(near.distance2);
+            if (std::abs(glm::dot(site.normal, p - site.position)) > 0.35f * distance + 0.02f * level.spacing)
+                continue;
+            const Record& record = record_of(field, level, near.index, world, map);
+            const float own = std::min(reach, last ? std::max(record.reach, level.spacing) : record.reach);
+            if (!(distance < own)) continue;
+            const float fall = 1 - distance / own, turn = (aligned - 0.75f) / 0.25f;
+            const float weight = share * fall * fall * turn;
+            sum += weight * extrapolate(record, site, p, n);
+            weights += weight;
+        }
+    }
+    if (!(weights > 0)) return {};
+    return {sum / weights, std::min(1.0f, weights / (0.1f * enough))};
+}
+
+std::int64_t record_count(const IrradianceField& field) { return field.records; }
+
+} // namespace pnr

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Smooth indirect light: final gathering at sites chosen among the photons, interpolated with gradients.
+//
+// The sites are a property of the photon map alone, not of a view or of the order in which pixels ask, so any
+// crop, thread or pass finds the same light. They lie in levels, each a Poisson-disc set of half the spacing
+// of the one before; a record is computed when a point first asks for its site, so that only what is seen is
+// paid for. A point takes the coarsest level whose records may be trusted there [Ward, Rubinstein, Clear
+// 1988; Ward and Heckbert 1992]. Rays of a final gather end at irradiances that were computed beforehand from
+// the photons [Christensen 1999].
+#pragma once
+
+#include "core/photon_map.h"
+#include "core/world.h"
+
+#include <memory>
+#include <vector>
+
+namespace pnr {
+
+struct IrradianceField; // irradiance_field.cpp
+
+// Lists the sites and computes the irradiances that gather rays end at. `map` must have its tree. A field
+// belongs to the world and the map it was made from.
+std::shared_ptr<const IrradianceField> make_irradiance_field(const World& world, const PhotonMap& map,
+                                                             const Progress& progress = {});
+
+// Irradiance by indirect light (neither straight from a light nor through specular surfaces alone) at a
+// point; `normal` is unit, on the side that is lit. `trust` tells how much the records know about the point:
+// 1 enough, 0 nothing; what is between should be blended with another estimate. May be called from any
+// thread; it fills records, which changes no result.
+struct FieldIrradiance {
+    Color irradiance{0};
+    float trust = 0;
+};
+FieldIrradiance field_irradiance(const IrradianceField& field, const World& world, const PhotonMap& map,
+                                 Vec3 position, Vec3 normal, std::vector<Neighbour>& scratch);
+
+// How many records have been computed so far, for statistics.
+std::int64_t record_count(const IrradianceField& field);
+
+} // namespace pnr
