@@ -2,6 +2,7 @@
 #include "cli/pipeline.h"
 
 #include "cli/interrupt.h"
+#include "core/irradiance_field.h"
 #include "core/trace_photons.h"
 
 #include <cmath>
@@ -36,7 +37,12 @@ PhotonMap make_photons(const Scene& scene, const Rendering& r, const Wishes& wis
     });
     if (!wishes.save_photons.empty())
         passes.run("write", [&](const Progress&) { save_photons(map, scene.hash, wishes.save_photons); });
-    if (r.plan.kdtree) passes.run("kdtree", [&](const Progress&) { build_photon_tree(map); });
+    if (r.plan.kdtree)
+        passes.run("kdtree", [&](const Progress& progress) {
+            build_photon_tree(map);
+            if (r.world.illumination == Illumination::photon_mapped)
+                map.field = make_irradiance_field(r.world, map, progress);
+        });
     return map;
 }
 
