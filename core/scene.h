@@ -66,21 +66,6 @@ struct PaintWord {
     bool own_axis = false;                            // `field along | around` was said here: its vectors stand in `style`
 };
 
-// One object statement: a shape, or a group of children (union). The parser applies transforms to everything already
-// said in the block, so every transform here maps straight to scene space, children's too.
-struct Object {
-    std::string name;                 // of the #declare it was made from; empty if none
-    SourceRef said_at;
-    std::optional<Shape> shape;       // none: a group
-    std::vector<Object> children;     // of a union, in the order of the text
-    Transform transform;              // shape's own space -> scene space
-    std::optional<Texture> texture;   // children without one use their parent's
-    std::optional<Interior> interior; // likewise
-    std::optional<PhotonRoles> photons;
-    std::optional<PaintWord> npr;
-    bool no_shadow = false, no_image = false, no_reflection = false, hollow = false, inverse = false;
-};
-
 // ---- lights ---------------------------------------------------------------------------------------------------
 
 enum class EmitterShape { sphere, hemisphere, disc, rectangle };
@@ -95,6 +80,7 @@ struct Emitter {
     std::optional<double> power;     // W
 };
 
+struct Object;
 struct LightSource {
     SourceRef said_at;
     Vec3 position{0};
@@ -105,7 +91,26 @@ struct LightSource {
     double tightness = 0;
     double fade_distance = 0, fade_power = 0;
     std::optional<Emitter> emitter;
+    std::vector<Object> looks_like;   // at most one; the parser moves it among the scene's objects
     bool no_image = false;            // an emitter hidden from camera rays alone
+};
+
+// ---- objects --------------------------------------------------------------------------------------------------
+
+// One object statement: a shape, or a group of children (union). The parser applies transforms to everything already
+// said in the block, so every transform here maps straight to scene space, children's too.
+struct Object {
+    std::string name;                 // of the #declare it was made from; empty if none
+    SourceRef said_at;
+    std::optional<Shape> shape;       // none: a group
+    std::vector<Object> children;     // of a union, in the order of the text
+    std::vector<LightSource> lights;  // that stand in a union; the parser moves them to Scene::lights
+    Transform transform;              // shape's own space -> scene space
+    std::optional<Texture> texture;   // children without one use their parent's
+    std::optional<Interior> interior; // likewise
+    std::optional<PhotonRoles> photons;
+    std::optional<PaintWord> npr;
+    bool no_shadow = false, no_image = false, no_reflection = false, hollow = false, inverse = false;
 };
 
 struct Scene {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The scene's blocks. Functions return by value what was said; transforms inside a block are applied to what stands
-// before them.
+// The scene's blocks. Functions return by value what was said; transforms inside a block are applied to what
+// stands before them. Where a function reads a block, its word (`pigment`, `camera` ...) has been taken and
+// `{` is next.
 #pragma once
 
 #include "parser/parser.h"
@@ -9,25 +10,83 @@
 
 namespace pnr {
 
-// A scene file: items until the end of input, into p.scene and p.settings. Errors are recorded in the diagnostics.
+// A scene file: items until the end of input, into p.scene and p.settings. Errors are recorded in the
+// diagnostics.
 void parse_scene(Parser& p);
 
-// If the next token starts a block that can be declared (object, texture, pigment, finish, interior, light_source,
-// camera, transform, npr, style ...), parses it. Called by parse_value for #declare.
+// If the next token starts a block that can be declared (object, texture, pigment, finish, interior,
+// light_source, camera, transform, npr ...), parses it. Called by parse_value for #declare.
 std::optional<DeclaredBlock> parse_declared_block(Parser& p);
 // The block of `#default { ... }`, behind its `{` and up to its `}`.
 void parse_default_block(Parser& p);
 
-std::optional<Object> parse_object(Parser& p); // nothing if no object statement stands here
-LightSource parse_light_source(Parser& p);
-Camera parse_camera(Parser& p);
+// ---- objects
+// --------------------------------------------------------------------------------------------------
+
+// The whole statement with its word; nothing if no object statement stands here. One that we know and lack
+// comes back without shape and children, after a warning.
+std::optional<Object> parse_object(Parser& p);
+// One item that any object takes behind its own: texture, transforms, npr, flags. False if none stands here.
+bool parse_object_modifier(Parser& p, Object& object);
+// A shape's own items, up to the first modifier or `}`; parse_shapes.cpp and parse_mesh.cpp.
+Shape parse_sphere(Parser& p);
+Shape parse_box(Parser& p);
+Shape parse_plane(Parser& p);
+Shape parse_cylinder(Parser& p);
+Shape parse_cone(Parser& p);
+Shape parse_torus(Parser& p);
+Shape parse_disc(Parser& p);
+Shape parse_triangle(Parser& p);
+Shape parse_smooth_triangle(Parser& p);
+Shape parse_mesh(Parser& p);
+Shape parse_mesh2(Parser& p);
+Shape parse_bicubic_patch(Parser& p);
+
+// ---- textures
+// -------------------------------------------------------------------------------------------------
+
 Texture parse_texture(Parser& p, const Texture& start);
 Pigment parse_pigment(Parser& p, const Pigment& start);
 Finish parse_finish(Parser& p, const Finish& start);
 Interior parse_interior(Parser& p, const Interior& start);
-PaintWord parse_npr(Parser& p);
-Transform parse_transform_block(Parser& p);
-bool accept_transform(Parser& p, Transform& transform); // translate, rotate, scale, matrix, transform: one of them
+SaidMaterial parse_material(Parser& p);
+ColorMap parse_color_map(Parser& p);
+ImagePattern parse_image_map(Parser& p);
+bool skip_pattern(Parser& p); // one pattern or pattern modifier, where it picks from things that we lack
+
+// ---- lights, camera, painting, settings
+// -----------------------------------------------------------------------
+
+LightSource parse_light_source(Parser& p);
+Camera parse_camera(Parser& p);
+PhotonRoles parse_object_photons(Parser& p);
+// Behind `npr`: nothing, `on`, `off` or a block; changes `word`.
+void parse_npr(Parser& p, PaintWord& word);
 void parse_global_settings(Parser& p);
+// At the end of the text: every object's style from the defaults and its own words.
+void resolve_paint(Parser& p);
+
+// ---- transforms
+// -----------------------------------------------------------------------------------------------
+
+bool accept_transform(Parser& p,
+                      Transform& transform); // translate, rotate, scale, matrix, transform: one of them
+Transform parse_transform(Parser& p);        // behind `transform`: a block, or the name of one
+void apply_transform(const Transform& by, Object& object);
+void apply_transform(const Transform& by, LightSource& light);
+void apply_transform(const Transform& by, Texture& texture);
+void apply_transform(const Transform& by, Pigment& pigment);
+void apply_transform(const Transform& by, PaintWord& word);
+void apply_transform(const Transform& by, Camera& camera);
+
+// ---- what we know and lack
+// ------------------------------------------------------------------------------------
+
+// Skips `{ ... }` with everything in it.
+void skip_block(Parser& p, std::string_view what);
+// Skips a block if one stands here, else a single expression if one does.
+void skip_argument(Parser& p, std::string_view what);
+// "`fog` is not supported: it is left out", once for each feature.
+void warn_unsupported(Parser& p, const Token& at, std::string_view feature, std::string_view consequence);
 
 } // namespace pnr

@@ -4,7 +4,8 @@
 
 namespace pnr {
 
-// A linear value as the scene's working value (Scene::assumed_gamma), for `srgb` colours: decode sRGB, then this.
+// A linear value as the scene's working value (Scene::assumed_gamma), for `srgb` colours: decode sRGB, then
+// this.
 double to_working(double linear, double assumed_gamma);
 double srgb_to_linear(double encoded); // the sRGB curve, odd for negative values
 double linear_to_srgb(double linear);

@@ -12,8 +12,10 @@
 #include "parser/token.h"
 #include "parser/value.h"
 
+#include <functional>
 #include <initializer_list>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -29,6 +31,7 @@ struct Parser {
     Texture default_texture;
     PaintWord
         paint_defaults; // global_settings { npr { ... } } and #default { npr { ... } }, merged at the end
+    std::set<std::string, std::less<>> left_out; // features that were warned about
 };
 
 // Thrown after an error was recorded, to unwind to the nearest place that can recover (a block's end).

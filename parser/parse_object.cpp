@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Object statements: the word, the shape's own items, then modifiers in any order.
+#include "parser/blocks.h"
+
+#include <algorithm>
+#include <array>
+
+namespace pnr {
+
+namespace {
+
+using ShapeParser = Shape (*)(Parser&);
+
+// The table of objects: a word and the function that reads what is its own.
+ShapeParser find_shape_parser(const Token& word) {
+    switch (keyword_of(word)) {
+    case "sphere"_kw:
+        return parse_sphere;
+    case "box"_kw:
+        return parse_box;
+    case "plane"_kw:
+        return parse_plane;
+    case "cylinder"_kw:
+        return parse_cylinder;
+    case "cone"_kw:
+        return parse_cone;
+    case "torus"_kw:
+        return parse_torus;
+    case "disc"_kw:
+        return parse_disc;
+    case "triangle"_kw:
+        return parse_triangle;
+    case "smooth_triangle"_kw:
+        return parse_smooth_triangle;
+    case "mesh"_kw:
+        return parse_mesh;
+    case "mesh2"_kw:
+        return parse_mesh2;
+    case "bicubic_patch"_kw:
+        return parse_bicubic_patch;
+    default:
+        return nullptr;
+    }
+}
+
+bool is_group(const Token& word) {
+    switch (keyword_of(word)) {
+    case "union"_kw:
+    case "merge"_kw:
+    case "difference"_kw:
+    case "intersection"_kw:
+    case "light_group"_kw:
+        return true;
+    default:
+        return false;
+    }
+}
+
+// Objects of POV-Ray's that we know and lack.
+bool is_unsupported_object(const Token& word) {
+    switch (keyword_of(word)) {
+    case "blob"_kw:
+    case "cubic"_kw:
+    case "height_field"_kw:
+    case "isosurface"_kw:
+    case "julia_fractal"_kw:
+    case "lathe"_kw:
+    case "ovus"_kw:
+    case "parametric"_kw:
+    case "poly"_kw:
+    case "polygon"_kw:
+    case "polynomial"_kw:
+    case "prism"_kw:
+    case "quadric"_kw:
+    case "quartic"_kw:
+    case "sor"_kw:
+    case "sphere_sweep"_kw:
+    case "superellipsoid"_kw:
+    case "text"_kw:
+        return true;
+    default:
+        return false;
+    }
+}
+
+// ---- modifiers
+// --------------------------------------------------------------------------------------------------
+
+Texture& own_texture(Parser& p, Object& object) {
+    if (!object.texture) object.texture = p.default_texture;
+    return *object.texture;
+}
+
+bool is_see_through(const Pigment& pigment) {
+    return std::ranges::any_of(
+        pigment.map, [](const ColorStop& stop) { return stop.color.filter + stop.color.transmit > 0; });
+}
+
+// A second texture lies on the first, as a layer: where it is opaque, it alone is seen.
+void add_texture(Parser& p, const Token& word, Object& object, bool layered) {
+    const Texture texture = parse_texture(p, p.default_texture);
+    if (layered && is_see_through(texture.pigment))
+        warn_unsupported(p, word, "layered textures", "the lowest layer is drawn alone");
+    else
+        object.texture = texture;
+}
+
+void add_material(Parser& p, Object& object) {
+    SaidMaterial material;
+    if (const auto* declared = accept_declared<SaidMaterial>(p))
+        material = *declared;
+    else
+        material = parse_material(p);
+    if (material.texture) object.texture = material.texture;
+    if (material.interior) object.interior = material.interior;
+}
+
+bool parse_texture_modifier(Parser& p, Object& object) {
+    const Token word = peek(p);
+    switch (keyword_of(word)) {
+    case "texture"_kw:
+        next(p), add_texture(p, word, object, object.texture.has_value());
+        return true;
+    case "pigment"_kw: {
+        next(p);
+        Texture& texture = own_texture(p, object);
+        texture.pigment = parse_pigment(p, texture.pigment);
+        return true;
+    }
+    case "finish"_kw: {
+        next(p);
+        Texture& texture = own_texture(p, object);
+        texture.finish = parse_finish(p, texture.finish);
+        return true;
+    }
+    case "interior"_kw:
+        next(p), object.interior = parse_interior(p, object.interior.value_or(Interior{}));
+        return true;
+    case "material"_kw:
+        next(p), add_material(p, object);
+        return true;
+    case "normal"_kw:
+        warn_unsupported(p, next(p), "normal", "surfaces are left smooth");
+        skip_block(p, "normal");
+        return true;
+    case "interior_texture"_kw:
+        warn_unsupported(p, next(p), "interior_texture", "both sides are alike");
+        skip_block(p, "interior_texture");
+        return true;
+    case "uv_mapping"_kw:
+        next(p), parse_optional_bool(p);
+        return true;
+    default:
+        return false;
+    }
+}
+
+bool parse_flag(Parser& p, Object& object) {
+    const Token word = peek(p);
+    switch (keyword_of(word)) {
+    case "no_shadow"_kw:
+        next(p), object.no_shadow = true;
+        return true;
+    case "no_image"_kw:
+        next(p), object.no_image = parse_optional_bool(p);
+        return true;
+    case "no_reflection"_kw:
+        next(p), object.no_reflection = parse_optional_bool(p);
+        return true;
+    case "hollow"_kw:
+        next(p), object.hollow = parse_optional_bool(p);
+        return true;
+    case "inverse"_kw:
+        next(p), object.inverse = !object.inverse;
+        return true;
+    case "no_radiosity"_kw:
+        next(p), parse_optional_bool(p);
+        return true;
+    case "double_illuminate"_kw: // both sides are lit always
+    case "split_union"_kw:
+    case "sturm"_kw:
+    case "hierarchy"_kw:
+        next(p), parse_optional_bool(p);
+        return true;
+    case "cutaway_textures"_kw:
+        next(p);
+        return true;
+    case "bounded_by"_kw:
+        next(p), skip_block(p, "bounded_by");
+        return true; // we bound by ourselves
+    case "clipped_by"_kw:
+        warn_unsupported(p, next(p), "clipped_by", "objects are drawn whole");
+        skip_block(p, "clipped_by");
+        return true;
+    case "open"_kw:
+        if (Cylinder* cylinder = object.shape ? std::get_if<Cylinder>(&*object.shape) : nullptr)
+            return next(p), cylinder->open = true;
+        if (Cone* cone = object.shape ? std::get_if<Cone>(&*object.shape) : nullptr)
+            return next(p), cone->open = true;
+        return false;
+    case "smooth"_kw:
+        if (Mesh* mesh = object.shape ? std::get_if<Mesh>(&*object.shape) : nullptr;
+            mesh && !mesh->file.empty())
+            return next(p), mesh->smooth = parse_optional_bool(p), true;
+        return false;
+    default:
+        return false;
+    }
+}
+
+} // namespace
+
+bool parse_object_modifier(Parser& p, Object& object) {
+    if (Transform transform; accept_transform(p, transform)) return apply_transform(transform, object), true;
+    if (parse_texture_modifier(p, object) || parse_flag(p, object)) return true;
+    if (accept(p, "photons"_kw)) return object.photons = parse_object_photons(p), true;
+    if (!accept(p, "npr"_kw)) return false;
+    if (!object.npr) object.npr.emplace();
+    parse_npr(p, *object.npr);
+    return true;
+}
+
+namespace {
+
+[[noreturn]] void unexpected_in_object(Parser& p, std::string_view what) {
+    unexpected(p, what,
+               {"texture"_kw, "pigment"_kw, "finish"_kw, "interior"_kw, "material"_kw, "npr"_kw, "photons"_kw,
+                "translate"_kw, "rotate"_kw, "scale"_kw, "matrix"_kw, "transform"_kw, "no_shadow"_kw,
+                "no_image"_kw, "no_reflection"_kw, "hollow"_kw, "inverse"_kw});
+}
+
+bool at_declared_object(Parser& p, Object& object) {
+    const Token name = peek(p);
+    const auto* declared = accept_declared<Object>(p);
+    if (!declared) return false;
+    object = *declared;
+    object.name = token_text(p, name);
+    return true;
+}
+
+// A shape's statement behind its word: its own items, or a declared object of any shape, then modifiers.
+Object parse_shape_statement(Parser& p, const Token& word, ShapeParser parse_shape) {
+    Object object;
+    const std::string what = token_text(p, word);
+    bool started = false;
+    block(p, what, [&] {
+        if (!started) {
+            started = true;
+            if (!at_declared_object(p, object)) object.shape = parse_shape(p);
+        } else if (!parse_object_modifier(p, object))
+            unexpected_in_object(p, what);
+    });
+    return object;
+}
+
+// `object { Name ... }` or `object { sphere {...} ... }`.
+Object parse_object_reference(Parser& p) {
+    Object object;
+    bool started = false;
+    block(p, "object", [&] {
+        if (!started) {
+            started = true;
+            if (at_declared_object(p, object)) return;
+            if (auto inner = parse_object(p))
+                object = std::move(*inner);
+            else if (accept(p, "light_source"_kw))
+                object.lights.push_back(parse_light_source(p));
+            else if (const auto* light = accept_declared<LightSource>(p))
+                object.lights.push_back(*light);
+            else
+                fail(p, peek(p), "`object` needs a declared object's name, or an object",
+                     "declare it first: #declare Name = sphere { ... }");
+        } else if (!parse_object_modifier(p, object))
+            unexpected_in_object(p, "object");
+    });
+    return object;
+}
+
+bool parse_group_child(Parser& p, Object& group) {
+    const Token word = peek(p);
+    if (accept(p, "light_source"_kw))
+        group.lights.push_back(parse_light_source(p));
+    else if (const auto* light = accept_declared<LightSource>(p))
+        group.lights.push_back(*light);
+    else if (auto child = parse_object(p))
+        group.children.push_back(std::move(*child));
+    else if (const auto* declared = accept_declared<Object>(p)) {
+        group.children.push_back(*declared);
+        group.children.back().name = token_text(p, word);
+    } else
+        return false;
+    return true;
+}
+
+// union, and the kinds of CSG that we lack.
+Object parse_group(Parser& p, const Token& word) {
+    Object group;
+    const std::string what = token_text(p, word);
+    const bool first_alone = is(word, "difference"_kw) || is(word, "intersection"_kw);
+    if (is(word, "merge"_kw)) warn_unsupported(p, word, what, "its parts are drawn as a union");
+    if (first_alone) warn_unsupported(p, word, what, "its first part is drawn whole");
+    if (is(word, "light_group"_kw)) warn_unsupported(p, word, what, "its lights shine on everything");
+    block(p, what, [&] {
+        if (parse_group_child(p, group) || parse_object_modifier(p, group)) return;
+        if (is(word, "light_group"_kw) && accept(p, "global_lights"_kw))
+            parse_bool(p);
+        else
+            unexpected_in_object(p, what);
+    });
+    if (first_alone && group.children.size() > 1) group.children.resize(1);
+    return group;
+}
+
+} // namespace
+
+std::optional<Object> parse_object(Parser& p) {
+    const Token word = peek(p);
+    Object object;
+    if (const ShapeParser parse_shape = find_shape_parser(word))
+        object = parse_shape_statement(p, next(p), parse_shape);
+    else if (is_group(word))
+        object = parse_group(p, next(p));
+    else if (accept(p, "object"_kw))
+        object = parse_object_reference(p);
+    else if (is_unsupported_object(word)) {
+        warn_unsupported(p, next(p), token_text(p, word), "such objects are left out");
+        skip_block(p, token_text(p, word));
+    } else
+        return std::nullopt;
+    object.said_at = source_ref(p, word);
+    charge(p, word, sizeof(Object));
+    return object;
+}
+
+PhotonRoles parse_object_photons(Parser& p) {
+    PhotonRoles roles;
+    block(p, "photons", [&] {
+        const Token word = peek(p);
+        switch (keyword_of(word)) {
+        case "specular_probability"_kw:
+            next(p), roles.specular_probability = parse_float_in(p, 0, 1, "`specular_probability`");
+            return;
+        case "absorption_probability"_kw:
+            next(p), roles.absorption_probability = parse_float_in(p, 0, 1, "`absorption_probability`");
+            return;
+        case "target"_kw:
+            next(p), roles.target = true;
+            if (at_expression(p)) parse_float(p); // POV-Ray's spacing multiplier: photons go everywhere here
+            return;
+        case "reflection"_kw:
+            next(p), roles.reflection = parse_optional_bool(p);
+            return;
+        case "refraction"_kw:
+            next(p), roles.refraction = parse_optional_bool(p);
+            return;
+        case "collect"_kw:
+            next(p), roles.collect = parse_optional_bool(p);
+            return;
+        case "pass_through"_kw:
+            warn_unsupported(p, next(p), "pass_through", "photons meet the object");
+            parse_optional_bool(p);
+            return;
+        default:
+            unexpected(p, "photons",
+                       {"specular_probability"_kw, "absorption_probability"_kw, "target"_kw, "reflection"_kw,
+                        "refraction"_kw, "collect"_kw, "pass_through"_kw});
+        }
+    });
+    return roles;
+}
+
+} // namespace pnr

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A scene file's items, what can be declared, and what is seen to once all is read.
+#include "parser/blocks.h"
+
+#include <fmt/format.h>
+
+namespace pnr {
+
+namespace {
+
+bool ends_with_pov(const std::string& file) {
+    if (file.size() < 4) return false;
+    std::string tail = file.substr(file.size() - 4);
+    for (char& c : tail)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return tail == ".pov";
+}
+
+// POV-Ray's own defaults: without assumed_gamma it writes values as they are.
+void start_povray(Parser& p) {
+    p.scene.povray = true;
+    p.scene.assumed_gamma = 0;
+    p.settings.render.max_trace_level = 5;
+}
+
+bool is_black(const Pigment& pigment) {
+    return std::holds_alternative<UniformPattern>(pigment.pattern) &&
+           pnr::is_black(pigment.map.front().color.rgb) &&
+           pigment.map.front().color.filter + pigment.map.front().color.transmit == 0;
+}
+
+// Gives #default's texture to the parts that have none and inherit none. True if a part stayed black by that.
+bool give_default_texture(const Texture& texture, Object& object) {
+    if (object.texture) return false;
+    if (object.shape) object.texture = texture;
+    bool black = object.shape && is_black(texture.pigment);
+    for (Object& child : object.children) black |= give_default_texture(texture, child);
+    return black;
+}
+
+// Lights that stand in unions become the scene's own, and so do the objects that lights look like.
+void take_lights(Object& object, std::vector<LightSource>& lights) {
+    for (LightSource& light : object.lights) lights.push_back(std::move(light));
+    object.lights.clear();
+    for (Object& child : object.children) take_lights(child, lights);
+}
+
+void add_light(Parser& p, const Token& word, LightSource light);
+
+void add_object(Parser& p, const Token& word, Object object) {
+    if (give_default_texture(p.default_texture, object))
+        warn(p, word, "this object has no pigment and stays black",
+             "give it one: pigment { rgb <1, 0.5, 0.2> }");
+    std::vector<LightSource> lights;
+    take_lights(object, lights);
+    p.scene.objects.push_back(std::move(object));
+    for (LightSource& light : lights) add_light(p, word, std::move(light));
+}
+
+void add_light(Parser& p, const Token& word, LightSource light) {
+    const std::vector<Object> looks_like = std::move(light.looks_like);
+    light.looks_like.clear();
+    p.scene.lights.push_back(std::move(light));
+    for (const Object& object : looks_like) add_object(p, word, object);
+}
+
+void parse_background(Parser& p) {
+    block(p, "background", [&] { p.scene.background = parse_color(p).rgb; });
+}
+
+void parse_camera_item(Parser& p) {
+    p.scene.camera = parse_camera(p);
+    p.scene.has_camera = true;
+}
+
+bool is_unsupported_item(const Token& word) {
+    switch (keyword_of(word)) {
+    case "sky_sphere"_kw:
+    case "fog"_kw:
+    case "rainbow"_kw:
+    case "media"_kw:
+        return true;
+    default:
+        return false;
+    }
+}
+
+void parse_scene_item(Parser& p) {
+    const Token word = peek(p);
+    if (auto object = parse_object(p)) return add_object(p, word, std::move(*object));
+    if (accept(p, "light_source"_kw)) return add_light(p, word, parse_light_source(p));
+    if (accept(p, "camera"_kw)) return parse_camera_item(p);
+    if (accept(p, "background"_kw)) return parse_background(p);
+    if (accept(p, "global_settings"_kw)) return parse_global_settings(p);
+    if (is_unsupported_item(word)) {
+        warn_unsupported(p, next(p), token_text(p, word), "it is left out");
+        return skip_block(p, token_text(p, word));
+    }
+    if (accept(p, ';')) return;
+    unexpected(p, "a scene",
+               {"camera"_kw, "light_source"_kw, "object"_kw, "sphere"_kw, "box"_kw, "plane"_kw, "cylinder"_kw,
+                "cone"_kw, "torus"_kw, "disc"_kw, "triangle"_kw, "smooth_triangle"_kw, "mesh"_kw, "mesh2"_kw,
+                "bicubic_patch"_kw, "union"_kw, "background"_kw, "global_settings"_kw});
+}
+
+void check_whole_scene(Parser& p) {
+    const Token& end = peek(p);
+    if (!p.scene.has_camera)
+        warn(p, end, "the scene has no camera: it is seen from the origin along z",
+             "add one: camera { location <0, 2, -8> look_at <0, 1, 0> }");
+    if (p.scene.lights.empty() && !p.scene.objects.empty())
+        warn(p, end, "the scene has no light", "add one: light_source { <5, 10, -10>, rgb 1 }");
+}
+
+} // namespace
+
+void parse_scene(Parser& p) {
+    if (ends_with_pov(p.scene.file)) start_povray(p);
+    while (!at_end(p)) {
+        try {
+            parse_scene_item(p);
+        } catch (const ParseFailure&) {
+            recover_statement(p);
+        }
+    }
+    resolve_paint(p);
+    check_whole_scene(p);
+}
+
+std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
+    const Token word = peek(p);
+    if (auto object = parse_object(p)) return DeclaredBlock(std::move(*object));
+    switch (keyword_of(word)) {
+    case "texture"_kw:
+        next(p);
+        return parse_texture(p, p.default_texture);
+    case "pigment"_kw:
+        next(p);
+        return parse_pigment(p, p.default_texture.pigment);
+    case "finish"_kw:
+        next(p);
+        return parse_finish(p, p.default_texture.finish);
+    case "interior"_kw:
+        next(p);
+        return parse_interior(p, Interior{});
+    case "material"_kw:
+        next(p);
+        return parse_material(p);
+    case "color_map"_kw:
+        next(p);
+        return parse_color_map(p);
+    case "light_source"_kw:
+        next(p);
+        return parse_light_source(p);
+    case "camera"_kw:
+        next(p);
+        return parse_camera(p);
+    case "transform"_kw:
+        next(p);
+        return parse_transform(p);
+    case "npr"_kw: {
+        next(p);
+        PaintWord paint;
+        parse_npr(p, paint);
+        return paint;
+    }
+    default:
+        break;
+    }
+    switch (keyword_of(word)) {
+    case "normal"_kw:
+    case "media"_kw:
+    case "density"_kw:
+    case "fog"_kw:
+    case "rainbow"_kw:
+    case "sky_sphere"_kw:
+    case "pigment_map"_kw:
+    case "texture_map"_kw:
+    case "normal_map"_kw:
+    case "slope_map"_kw:
+    case "density_map"_kw:
+    case "warp"_kw:
+        warn_unsupported(p, next(p), token_text(p, word), "it is left out");
+        skip_block(p, token_text(p, word));
+        return SkippedBlock{token_text(p, word)};
+    default:
+        return std::nullopt;
+    }
+}
+
+void parse_default_block(Parser& p) {
+    while (!at(p, '}') && !at_end(p)) {
+        const Token word = peek(p);
+        Texture& texture = p.default_texture;
+        if (accept(p, "texture"_kw))
+            texture = parse_texture(p, texture);
+        else if (accept(p, "pigment"_kw))
+            texture.pigment = parse_pigment(p, texture.pigment);
+        else if (accept(p, "finish"_kw))
+            texture.finish = parse_finish(p, texture.finish);
+        else if (accept(p, "npr"_kw))
+            parse_npr(p, p.paint_defaults);
+        else if (accept(p, "camera"_kw))
+            skip_block(p, "camera");
+        else if (accept(p, "normal"_kw)) {
+            warn_unsupported(p, word, "normal", "surfaces are left smooth");
+            skip_block(p, "normal");
+        } else if (accept(p, "radiosity"_kw))
+            skip_block(p, "radiosity");
+        else
+            unexpected(p, "#default", {"texture"_kw, "pigment"_kw, "finish"_kw, "npr"_kw});
+    }
+}
+
+} // namespace pnr
