@@ -71,7 +71,7 @@ LoadResult load_scene_text(std::string text, const std::string& name, const Load
     Expander in(result.sources, result.diagnostics, options);
     const std::filesystem::path folder = std::filesystem::path(name).parent_path();
     in.scene_folder = folder.empty() ? std::string(".") : folder.string();
-    Parser p{in, scene, result.settings, {}, {}};
+    Parser p{in, scene, result.settings, {}, {}, {}};
     const std::uint32_t source = in.sources.add(name, std::move(text));
     try {
         in.symbols.resize(in.words.texts.size());

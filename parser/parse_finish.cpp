@@ -2,6 +2,8 @@
 // finish and interior: how a surface answers to light, and what fills it.
 #include "parser/blocks.h"
 
+#include <fmt/format.h>
+
 #include <limits>
 
 namespace pnr {
@@ -119,7 +121,8 @@ bool parse_finish_word(Parser& p, Finish& f) {
     case "caustics"_kw:
     case "fade_distance"_kw:
     case "fade_power"_kw:
-        warn(p, next(p), "`" + token_text(p, word) + "` belongs into `interior`; here it is ignored");
+        warn(p, next(p),
+             fmt::format("`{}` belongs into `interior`; here it is ignored", token_text(p, word)));
         parse_float(p);
         return true;
     default:

@@ -2,6 +2,8 @@
 // global_settings.
 #include "parser/blocks.h"
 
+#include <fmt/format.h>
+
 namespace pnr {
 
 namespace {
@@ -65,7 +67,7 @@ void parse_photons(Parser& p) {
             return;
         case "save_file"_kw:
         case "load_file"_kw:
-            warn(p, next(p), "`" + token_text(p, word) + "` is ignored",
+            warn(p, next(p), fmt::format("`{}` is ignored", token_text(p, word)),
                  "use the options --save-photons and --load-photons");
             parse_string(p);
             return;
