@@ -1,36 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/geometry.h"
 
-#include "core/mesh_io.h"
+#include "core/bvh.h"
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace pnr {
 
 namespace {
 
-struct Primitive {
-    std::uint32_t item = 0, triangle = 0;
+// Copies of a mesh share one BVH where that saves more than this many triangles; else each is put into the
+// scene's own, which is quicker to trace.
+constexpr std::size_t worth_sharing = 50000;
+
+// A mesh in its own space, times a power of two.
+struct SharedMesh {
+    Bvh bvh;
+    double scale = 1;
 };
-struct Node {
-    Bounds bounds;
-    std::uint32_t first = 0, count = 0; // count 0: children at first and first + 1
-};
-struct Triangle {
-    Vec3f a, b, c;
+
+// What the BVH calls an other primitive: an analytic shape, or an instance of a shared mesh.
+struct Other {
+    std::uint32_t item = 0;
+    std::uint32_t first_primitive = 0;
+    std::shared_ptr<const SharedMesh> mesh; // null: a shape
 };
 
 } // namespace
 
 struct Geometry {
     std::vector<GeometryItem> items;
-    std::vector<std::uint32_t> first_primitive; // of each item
-    std::vector<Bounds> bounds;                 // of each item
-    std::vector<Primitive> primitives;
-    std::vector<Triangle> triangles; // parallel to primitives
-    std::vector<Node> nodes;
-    std::vector<std::uint32_t> unbounded;
+    std::vector<Bounds> bounds; // of each item
+    double scale = 1;           // world to kernel space: a power of two
+    Bvh bvh;
+    std::vector<Other> others;
+    std::vector<std::uint32_t> placed_items,
+        placed_first; // meshes in the scene's own BVH, and their first triangles
+    std::vector<std::uint32_t> unbounded, unbounded_primitive;
+    std::uint8_t hidden_from = 0; // of all items together
+    GeometryStats stats;
 };
 
 namespace {
@@ -78,148 +88,133 @@ int intersect_form(const GeometryItem& item, const Ray& ray, std::array<ShapeHit
     return intersect_shape(std::get<Shape>(item.form), ray, hits);
 }
 
-// Watertight ray/triangle test of Woop, Benthin and Wald 2013, in double.
-struct WoopRay {
-    Vec3 origin;
-    int x, y, z;
-    double sx, sy, sz;
-    explicit WoopRay(const Ray& r) : origin(r.origin) {
-        const Vec3 d = glm::abs(r.direction);
-        z = d.x > d.y ? (d.x > d.z ? 0 : 2) : (d.y > d.z ? 1 : 2);
-        x = (z + 1) % 3;
-        y = (x + 1) % 3;
-        if (r.direction[z] < 0) std::swap(x, y);
-        sx = r.direction[x] / r.direction[z];
-        sy = r.direction[y] / r.direction[z];
-        sz = 1 / r.direction[z];
-    }
+// ---- rays in kernel space
+// -------------------------------------------------------------------------------------
+
+// A ray as the kernel wants it, and the way back: t = shift + t_kernel / rate.
+struct Prepared {
+    KernelRay ray;
+    double shift = 0, rate = 1;
+    bool misses = false; // it does not come near
+
+    double to_kernel(double t) const { return (t - shift) * rate; }
+    double from_kernel(double t) const { return shift + t / rate; }
 };
 
-bool hit_triangle(const WoopRay& r, const Triangle& tri, double t_min, double t_max, double& t,
-                  Vec3& weights) {
-    const Vec3 a = Vec3(tri.a) - r.origin, b = Vec3(tri.b) - r.origin, c = Vec3(tri.c) - r.origin;
-    const double ax = a[r.x] - r.sx * a[r.z], ay = a[r.y] - r.sy * a[r.z];
-    const double bx = b[r.x] - r.sx * b[r.z], by = b[r.y] - r.sy * b[r.z];
-    const double cx = c[r.x] - r.sx * c[r.z], cy = c[r.y] - r.sy * c[r.z];
-    const double u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
-    if ((u < 0 || v < 0 || w < 0) && (u > 0 || v > 0 || w > 0)) return false;
-    const double det = u + v + w;
-    if (det == 0) return false;
-    t = (u * a[r.z] + v * b[r.z] + w * c[r.z]) * r.sz / det;
-    if (!(t > t_min && t < t_max)) return false;
-    weights = Vec3(u, v, w) / det;
+// `scale` times space is kernel space, where all lies within `reach` of the origin. Rays from far away, or
+// with a negative t_min, start where they come near.
+Prepared prepare(Vec3 origin, Vec3 direction, double t_min, double t_max, double scale) {
+    constexpr double reach = 4;
+    Prepared p;
+    Vec3 o = scale * origin;
+    const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+    if (!(largest > 0) || !std::isfinite(largest)) {
+        p.misses = true;
+        return p;
+    }
+    Vec3 d = direction;
+    p.rate = scale;
+    if (largest < 0.5 || largest >= 2) {
+        const int exponent = std::ilogb(largest);
+        d *= std::ldexp(1.0, -exponent);
+        p.rate = std::ldexp(scale, exponent);
+    }
+    if (std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)}) > 2 * reach || t_min < 0) {
+        const double d2 = glm::dot(d, d), nearest = -glm::dot(o, d) / d2, half = reach / std::sqrt(d2);
+        const Vec3 closest = o + nearest * d;
+        const double start = std::max((nearest - half) / p.rate, t_min);
+        if (!(glm::dot(closest, closest) < reach * reach) || start >= t_max ||
+            start > (nearest + half) / p.rate) {
+            p.misses = true;
+            return p;
+        }
+        p.shift = start;
+        o += start * p.rate * d;
+    }
+    for (int k = 0; k < 3; ++k) p.ray.origin[k] = o[k], p.ray.direction[k] = d[k];
+    p.ray.t_min = p.to_kernel(std::max(t_min, p.shift));
+    p.ray.t_max = p.to_kernel(t_max);
+    return p;
+}
+
+// ---- what the kernel calls
+// ------------------------------------------------------------------------------------
+
+struct Trace {
+    const Geometry& g;
+    const Ray& ray; // in world space
+    std::uint8_t bit;
+    const Prepared& prepared;
+    ShapeHit shape_hit{}; // of the best hit, if that is a shape
+};
+
+bool better(double t, std::uint32_t primitive, const KernelHit& hit) {
+    return t < hit.t || (t == hit.t && primitive < hit.primitive);
+}
+
+bool meets_shape(Trace& trace, std::uint32_t index, std::uint32_t primitive, KernelHit& hit) {
+    const GeometryItem& item = trace.g.items[index];
+    const Ray own{transform_point(item.to_world.inverse, trace.ray.origin),
+                  transform_vector(item.to_world.inverse, trace.ray.direction), trace.ray.t_min,
+                  trace.ray.t_max};
+    std::array<ShapeHit, 4> hits;
+    if (intersect_form(item, own, hits) == 0) return false;
+    const double t = trace.prepared.to_kernel(hits[0].t);
+    if (!better(t, primitive, hit)) return false;
+    hit.t = t;
+    hit.primitive = primitive;
+    hit.item = index;
+    hit.triangle = no_primitive;
+    trace.shape_hit = hits[0];
     return true;
 }
 
-// The box test of Ize 2013, "Robust BVH ray traversal": the far side is widened by the rounding of both.
-bool hits_box(const Bounds& box, const Ray& r, const Vec3& inverse, double t_max) {
-    double t0 = r.t_min, t1 = t_max;
-    for (int k = 0; k < 3; ++k) {
-        double near = (box.low[k] - r.origin[k]) * inverse[k], far = (box.high[k] - r.origin[k]) * inverse[k];
-        if (near > far) std::swap(near, far);
-        if (near > t0) t0 = near; // NaN (0 * inf) leaves the interval as it is
-        if (far * (1 + 1e-15) < t1) t1 = far * (1 + 1e-15);
-    }
-    return t0 <= t1;
+bool meets_instance(const Other& other, const GeometryItem& item, double scale, const KernelRay& ray,
+                    KernelHit& hit) {
+    const SharedMesh& mesh = *other.mesh;
+    const Vec3 o(ray.origin[0], ray.origin[1], ray.origin[2]),
+        d(ray.direction[0], ray.direction[1], ray.direction[2]);
+    const Prepared own =
+        prepare(transform_point(item.to_world.inverse, o / scale),
+                transform_vector(item.to_world.inverse, d / scale), ray.t_min, hit.t, mesh.scale);
+    if (own.misses) return false;
+    KernelHit found;
+    found.t = own.ray.t_max;
+    closest(mesh.bvh, own.ray, {}, found);
+    if (found.primitive == no_primitive) return false;
+    const double t = own.from_kernel(found.t);
+    if (!(t > ray.t_min) || !better(t, other.first_primitive + found.triangle, hit)) return false;
+    hit = {t, other.first_primitive + found.triangle, other.item, found.triangle};
+    return true;
 }
 
-void build_nodes(Geometry& g, std::vector<Bounds>& boxes, std::uint32_t node, std::uint32_t first,
-                 std::uint32_t count) {
-    Bounds all, centers;
-    for (std::uint32_t i = first; i < first + count; ++i) {
-        all = merge(all, boxes[i]);
-        centers = merge(centers, 0.5 * (boxes[i].low + boxes[i].high));
-    }
-    g.nodes[node] = {all, first, count};
-    const Vec3 size = centers.high - centers.low;
-    const int axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-    if (count <= 4 || !(size[axis] > 0)) return;
-    std::vector<std::uint32_t> order(count);
-    for (std::uint32_t i = 0; i < count; ++i) order[i] = first + i;
-    std::nth_element(
-        order.begin(), order.begin() + count / 2, order.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return boxes[a].low[axis] + boxes[a].high[axis] < boxes[b].low[axis] + boxes[b].high[axis];
-        });
-    std::vector<Bounds> sorted_boxes(count);
-    std::vector<Primitive> sorted_primitives(count);
-    std::vector<Triangle> sorted_triangles(count);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        sorted_boxes[i] = boxes[order[i]];
-        sorted_primitives[i] = g.primitives[order[i]];
-        sorted_triangles[i] = g.triangles[order[i]];
-    }
-    std::copy(sorted_boxes.begin(), sorted_boxes.end(), boxes.begin() + first);
-    std::copy(sorted_primitives.begin(), sorted_primitives.end(), g.primitives.begin() + first);
-    std::copy(sorted_triangles.begin(), sorted_triangles.end(), g.triangles.begin() + first);
-    const auto child = static_cast<std::uint32_t>(g.nodes.size());
-    g.nodes.resize(g.nodes.size() + 2);
-    g.nodes[node].first = child;
-    g.nodes[node].count = 0;
-    build_nodes(g, boxes, child, first, count / 2);
-    build_nodes(g, boxes, child + 1, first + count / 2, count - count / 2);
+bool meets_other(const void* context, std::uint32_t index, const KernelRay& ray, KernelHit& hit) {
+    Trace& trace = *static_cast<Trace*>(const_cast<void*>(context));
+    const Other& other = trace.g.others[index];
+    const GeometryItem& item = trace.g.items[other.item];
+    if (item.hidden_from & trace.bit) return false;
+    if (!other.mesh) return meets_shape(trace, other.item, other.first_primitive, hit);
+    return meets_instance(other, item, trace.g.scale, ray, hit);
 }
 
-struct Found {
-    double t = infinity;
-    std::uint32_t item = 0, primitive = 0, triangle_at = 0;
-    ShapeHit shape_hit;
-    Vec3 weights{0};
-    bool any = false;
-};
-
-void try_shape(const Geometry& g, std::uint32_t index, const Ray& ray, Found& best) {
-    const GeometryItem& item = g.items[index];
-    const Ray own{transform_point(item.to_world.inverse, ray.origin),
-                  transform_vector(item.to_world.inverse, ray.direction), ray.t_min,
-                  std::nextafter(best.t, infinity)};
-    std::array<ShapeHit, 4> hits;
-    if (intersect_form(item, own, hits) == 0) return;
-    if (hits[0].t > best.t || (hits[0].t == best.t && g.first_primitive[index] > best.primitive)) return;
-    best = {hits[0].t, index, g.first_primitive[index], 0, hits[0], Vec3(0), true};
+std::size_t placed_index(const Geometry& g, std::uint32_t triangle) {
+    return static_cast<std::size_t>(std::upper_bound(g.placed_first.begin(), g.placed_first.end(), triangle) -
+                                    g.placed_first.begin()) -
+           1;
 }
 
-// The closest hit, or any when `any` is set.
-Found trace(const Geometry& g, const Ray& ray, RayKind kind, bool any) {
-    Found best;
-    best.t = ray.t_max;
-    best.primitive = ~0u;
-    const std::uint8_t bit = ray_bit(kind);
-    for (const std::uint32_t index : g.unbounded)
-        if (!(g.items[index].hidden_from & bit)) try_shape(g, index, ray, best);
-    if (g.nodes.empty() || (any && best.any)) return best;
-    const WoopRay woop(ray);
-    const Vec3 inverse = 1.0 / ray.direction;
-    std::uint32_t stack[128];
-    int top = 0;
-    stack[top++] = 0;
-    while (top > 0) {
-        const Node& node = g.nodes[stack[--top]];
-        if (!hits_box(node.bounds, ray, inverse, best.t)) continue;
-        if (node.count == 0) {
-            stack[top++] = node.first;
-            stack[top++] = node.first + 1;
-            continue;
-        }
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            const Primitive p = g.primitives[i];
-            if (g.items[p.item].hidden_from & bit) continue;
-            if (!mesh_of(g.items[p.item])) {
-                try_shape(g, p.item, ray, best);
-            } else {
-                double t;
-                Vec3 weights;
-                if (!hit_triangle(woop, g.triangles[i], ray.t_min, std::nextafter(best.t, infinity), t,
-                                  weights))
-                    continue;
-                const std::uint32_t number = g.first_primitive[p.item] + p.triangle;
-                if (t > best.t || (t == best.t && number > best.primitive)) continue;
-                best = {t, p.item, number, i, {}, weights, true};
-            }
-            if (any && best.any) return best;
-        }
-    }
-    return best;
+bool sees_triangle(const void* context, std::uint32_t triangle) {
+    const Trace& trace = *static_cast<const Trace*>(context);
+    return !(trace.g.items[trace.g.placed_items[placed_index(trace.g, triangle)]].hidden_from & trace.bit);
 }
+
+KernelCalls calls_for(Trace& trace) {
+    const bool all_seen = !(trace.g.hidden_from & trace.bit);
+    return {&trace, &meets_other, all_seen ? nullptr : &sees_triangle};
+}
+
+// ---- from the kernel's hit to the world's
+// ---------------------------------------------------------------------
 
 template <class T>
 T blend(const std::array<std::uint32_t, 3>& t, const std::vector<T>& values, Vec3 w) {
@@ -227,24 +222,204 @@ T blend(const std::array<std::uint32_t, 3>& t, const std::vector<T>& values, Vec
            static_cast<float>(w.z) * values[t[2]];
 }
 
-void finish_mesh_hit(const Geometry& g, const Found& f, const GeometryItem& item, Hit& hit) {
-    const Triangle& tri = g.triangles[f.triangle_at];
+double largest(Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
+struct Corners {
+    Vec3 a, b, c;
+};
+
+// The shares of the corners at the point of the triangle closest to p, about.
+Vec3 barycentric(const Corners& t, Vec3 p) {
+    const Vec3 e = t.b - t.a, f = t.c - t.a, n = glm::cross(e, f), q = p - t.a;
+    const double n2 = glm::dot(n, n);
+    double b = glm::dot(glm::cross(q, f), n) / n2, c = glm::dot(glm::cross(e, q), n) / n2;
+    if (!std::isfinite(b) || !std::isfinite(c)) return {1, 0, 0};
+    b = std::clamp(b, 0.0, 1.0);
+    c = std::clamp(c, 0.0, 1 - b);
+    return {1 - b - c, b, c};
+}
+
+// `corners` are in the space that `to_world` takes to the world; p is about the hit, in that space.
+void finish_mesh_hit(const GeometryItem& item, std::uint32_t number, const Corners& corners,
+                     const Transform& to_world, Vec3 p, Hit& hit) {
     const MeshData& mesh = *mesh_of(item)->data;
-    const std::uint32_t number = g.primitives[f.triangle_at].triangle;
-    const Vec3 a(tri.a), b(tri.b), c(tri.c);
-    hit.position = f.weights.x * a + f.weights.y * b + f.weights.z * c;
-    const double side = (glm::determinant(glm::dmat3(item.to_world.matrix)) < 0) != item.inverse ? -1 : 1;
-    hit.normal = side * glm::normalize(glm::cross(b - a, c - a));
+    const Vec3 weights = barycentric(corners, p);
+    const Vec3 e = corners.b - corners.a, f = corners.c - corners.a, n = glm::cross(e, f);
+    const Vec3 own = corners.a + weights.y * e + weights.z * f;
+    hit.position = transform_point(to_world.matrix, own);
+    const bool mirrored = glm::determinant(glm::dmat3(item.to_world.matrix)) < 0;
+    // The corners' own space is either the mesh's, or the world: there a mirror has turned the winding round.
+    const bool in_world = &to_world != &item.to_world;
+    const double side = (in_world && mirrored) != item.inverse ? -1 : 1;
+    hit.normal = side * glm::normalize(transform_normal(to_world, n / largest(n)));
     hit.shading_normal = hit.normal;
     if (!mesh.normals.empty()) {
-        const Vec3 own(blend(mesh.normal_triangles[number], mesh.normals, f.weights));
-        const Vec3 n = transform_normal(item.to_world, own);
-        if (glm::dot(n, n) > 0) hit.shading_normal = glm::normalize(glm::dot(n, hit.normal) < 0 ? -n : n);
+        const Vec3 blended(blend(mesh.normal_triangles[number], mesh.normals, weights));
+        const Vec3 shading = transform_normal(item.to_world, blended);
+        const double length = glm::length(shading);
+        if (length > 0)
+            hit.shading_normal = (glm::dot(shading, hit.normal) < 0 ? -1.0 : 1.0) * shading / length;
     }
-    if (!mesh.uvs.empty()) hit.uv = Vec2(blend(mesh.uv_triangles[number], mesh.uvs, f.weights));
-    const Vec3 size = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
-    hit.error = 0x1p-48 * std::max({size.x, size.y, size.z});
+    if (!mesh.uvs.empty()) hit.uv = Vec2(blend(mesh.uv_triangles[number], mesh.uvs, weights));
+    // Rounding of the corners' sum and of the plane that rays are cut with, whose normal is the worse the
+    // thinner the triangle is; then of the way to the world.
+    const double size = std::max({largest(corners.a), largest(corners.b), largest(corners.c)});
+    const double sides = std::max(largest(e), largest(f));
+    const double own_error = 0x1p-48 * size + 0x1p-50 * sides * (sides * sides / largest(n));
+    if (in_world) {
+        hit.error = own_error;
+        return;
+    }
+    double stretch = 0, shift = 0;
+    for (int k = 0; k < 3; ++k) stretch += largest(Vec3(to_world.matrix[k]));
+    shift = largest(Vec3(to_world.matrix[3]));
+    hit.error = 2 * stretch * own_error + 0x1p-48 * (stretch * size + shift);
 }
+
+void finish_shape_hit(const Geometry& g, const Ray& ray, const ShapeHit& shape_hit, Hit& hit) {
+    const GeometryItem& item = g.items[hit.surface];
+    hit.position = ray.origin + shape_hit.t * ray.direction;
+    const Vec3 n = transform_normal(item.to_world, shape_hit.normal);
+    hit.normal = hit.shading_normal = (item.inverse ? -1.0 : 1.0) * glm::normalize(n / largest(n));
+    hit.uv = shape_hit.uv;
+    // Rounding of the way there and of the shape's own coordinates, whose size the bounds tell.
+    const Bounds& b = g.bounds[hit.surface];
+    double size = largest(ray.origin) + largest(hit.position);
+    if (std::isfinite(b.low.x)) size = std::max({size, largest(b.low), largest(b.high)});
+    hit.error = 0x1p-47 * size;
+}
+
+static const Transform in_place;
+
+Hit finish(const Geometry& g, const Ray& ray, const Prepared& prepared, const Trace& trace,
+           const KernelHit& found) {
+    Hit hit;
+    hit.t = prepared.from_kernel(found.t);
+    hit.primitive = found.primitive;
+    if (found.triangle == no_primitive) {
+        hit.t = trace.shape_hit.t;
+        hit.surface = found.item;
+        finish_shape_hit(g, ray, trace.shape_hit, hit);
+        return hit;
+    }
+    const Vec3 p = ray.origin + hit.t * ray.direction;
+    if (found.primitive < g.stats.placed_triangles) {
+        const std::size_t placed = placed_index(g, found.triangle);
+        float v[9];
+        g.bvh.triangles->corners(found.triangle, v);
+        const Corners corners{Vec3(v[0], v[1], v[2]) / g.scale, Vec3(v[3], v[4], v[5]) / g.scale,
+                              Vec3(v[6], v[7], v[8]) / g.scale};
+        hit.surface = g.placed_items[placed];
+        finish_mesh_hit(g.items[hit.surface], found.triangle - g.placed_first[placed], corners, in_place, p,
+                        hit);
+    } else {
+        hit.surface = found.item;
+        const GeometryItem& item = g.items[found.item];
+        const MeshData& mesh = *mesh_of(item)->data;
+        const auto& t = mesh.triangles[found.triangle];
+        const Corners corners{Vec3(mesh.positions[t[0]]), Vec3(mesh.positions[t[1]]),
+                              Vec3(mesh.positions[t[2]])};
+        finish_mesh_hit(item, found.triangle, corners, item.to_world,
+                        transform_point(item.to_world.inverse, p), hit);
+    }
+    return hit;
+}
+
+// ---- building
+// -------------------------------------------------------------------------------------------------
+
+double power_of_two_below(double x) { return x > 0 && std::isfinite(x) ? std::ldexp(1.0, std::ilogb(x)) : 1; }
+
+std::shared_ptr<const SharedMesh> share(const MeshData& mesh) {
+    auto shared = std::make_shared<SharedMesh>();
+    double size = 0;
+    for (const Vec3f& p : mesh.positions) size = std::max(size, largest(Vec3(p)));
+    shared->scale = 0.5 / power_of_two_below(size);
+    std::vector<float> corners;
+    corners.reserve(9 * mesh.triangles.size());
+    for (const auto& t : mesh.triangles)
+        for (const std::uint32_t v : t)
+            for (int k = 0; k < 3; ++k)
+                corners.push_back(
+                    static_cast<float>(shared->scale * static_cast<double>(mesh.positions[v][k])));
+    shared->bvh = build_bvh(corners, {}, best_kernel());
+    return shared;
+}
+
+struct GeometryBuilder {
+    Geometry& g;
+    std::vector<float> corners;
+    std::vector<FloatBox> boxes;
+    std::map<const MeshData*, std::size_t> uses;
+    std::map<const MeshData*, std::shared_ptr<const SharedMesh>> shared;
+
+    bool is_shared(const MeshData& mesh) const {
+        return (uses.at(&mesh) - 1) * mesh.triangles.size() > worth_sharing;
+    }
+
+    void measure() {
+        Bounds all;
+        for (const GeometryItem& item : g.items) {
+            g.bounds.push_back(item_bounds(item));
+            const Bounds& b = g.bounds.back();
+            if (!is_empty(b) && std::isfinite(largest(b.low)) && std::isfinite(largest(b.high)))
+                all = merge(all, b);
+            if (const Mesh* mesh = mesh_of(item)) ++uses[mesh->data.get()];
+            g.hidden_from |= item.hidden_from;
+        }
+        if (!is_empty(all)) g.scale = 0.5 / power_of_two_below(std::max(largest(all.low), largest(all.high)));
+    }
+
+    void place_mesh(std::uint32_t index) {
+        const GeometryItem& item = g.items[index];
+        const MeshData& mesh = *mesh_of(item)->data;
+        g.placed_items.push_back(index);
+        g.placed_first.push_back(static_cast<std::uint32_t>(corners.size() / 9));
+        std::vector<Vec3f> placed;
+        placed.reserve(mesh.positions.size());
+        for (const Vec3f& p : mesh.positions)
+            placed.emplace_back(g.scale * transform_point(item.to_world.matrix, Vec3(p)));
+        for (const auto& t : mesh.triangles)
+            for (const std::uint32_t v : t)
+                for (int k = 0; k < 3; ++k) corners.push_back(placed[v][k]);
+    }
+
+    void add_other(std::uint32_t index, std::uint32_t& next, std::shared_ptr<const SharedMesh> mesh,
+                   std::uint32_t size) {
+        const Bounds& b = g.bounds[index];
+        FloatBox box;
+        for (int k = 0; k < 3; ++k) { // outwards, by more than what rounds here and in the transforms
+            const double slack =
+                0x1p-22 * std::max(std::abs(b.low[k]), std::abs(b.high[k])) + 0x1p-40 / g.scale;
+            box.low[k] = static_cast<float>(g.scale * (b.low[k] - slack));
+            box.high[k] = static_cast<float>(g.scale * (b.high[k] + slack));
+        }
+        boxes.push_back(box);
+        g.others.push_back({index, next, std::move(mesh)});
+        next += size;
+    }
+
+    void add_others() {
+        auto next = static_cast<std::uint32_t>(corners.size() / 9);
+        for (std::uint32_t i = 0; i < g.items.size(); ++i) {
+            if (is_empty(g.bounds[i])) continue;
+            const Mesh* mesh = mesh_of(g.items[i]);
+            if (!std::isfinite(largest(g.bounds[i].low)) || !std::isfinite(largest(g.bounds[i].high))) {
+                if (mesh) continue;
+                g.unbounded.push_back(i);
+                g.unbounded_primitive.push_back(next++);
+            } else if (!mesh) {
+                add_other(i, next, nullptr, 1);
+                ++g.stats.shapes;
+            } else if (is_shared(*mesh->data)) {
+                auto& entry = shared[mesh->data.get()];
+                if (!entry) entry = share(*mesh->data);
+                add_other(i, next, entry, static_cast<std::uint32_t>(mesh->data->triangles.size()));
+                ++g.stats.instances;
+            }
+        }
+    }
+};
 
 } // namespace
 
@@ -260,130 +435,60 @@ Bounds item_bounds(const GeometryItem& item) {
     return world;
 }
 
-std::shared_ptr<const Geometry> make_geometry(std::vector<GeometryItem> items, double radius) {
+std::shared_ptr<const Geometry> make_geometry(std::vector<GeometryItem> items) {
     auto geometry = std::make_shared<Geometry>();
     Geometry& g = *geometry;
     g.items = std::move(items);
-    std::vector<Bounds> boxes;
-    std::uint32_t next = 0;
+    GeometryBuilder builder{g, {}, {}, {}, {}};
+    builder.measure();
     for (std::uint32_t i = 0; i < g.items.size(); ++i) {
-        const GeometryItem& item = g.items[i];
-        g.first_primitive.push_back(next);
-        g.bounds.push_back(item_bounds(item));
-        const Mesh* mesh = mesh_of(item);
-        next += mesh && mesh->data ? static_cast<std::uint32_t>(mesh->data->triangles.size()) : 1;
-        if (is_empty(g.bounds[i])) continue;
-        if (!mesh) {
-            if (!std::isfinite(g.bounds[i].low.x)) {
-                g.unbounded.push_back(i);
-                continue;
-            }
-            const Bounds b{g.bounds[i].low - 1e-12 * radius, g.bounds[i].high + 1e-12 * radius};
-            g.primitives.push_back({i, 0});
-            g.triangles.emplace_back();
-            boxes.push_back(b);
-            continue;
-        }
-        for (std::uint32_t k = 0; k < mesh->data->triangles.size(); ++k) {
-            const auto place = [&](std::uint32_t v) {
-                return Vec3f(transform_point(item.to_world.matrix, Vec3(mesh->data->positions[v])));
-            };
-            const auto& t = mesh->data->triangles[k];
-            const Triangle tri{place(t[0]), place(t[1]), place(t[2])};
-            const Vec3 n = glm::cross(Vec3(tri.b) - Vec3(tri.a), Vec3(tri.c) - Vec3(tri.a));
-            if (n == Vec3(0)) continue;
-            g.primitives.push_back({i, k});
-            g.triangles.push_back(tri);
-            boxes.push_back(merge(merge(merge(Bounds{}, Vec3(tri.a)), Vec3(tri.b)), Vec3(tri.c)));
-        }
+        const Mesh* mesh = mesh_of(g.items[i]);
+        if (mesh && !is_empty(g.bounds[i]) && !builder.is_shared(*mesh->data)) builder.place_mesh(i);
     }
-    if (!boxes.empty()) {
-        g.nodes.resize(1);
-        build_nodes(g, boxes, 0, 0, static_cast<std::uint32_t>(boxes.size()));
-    }
+    builder.add_others();
+    g.bvh = build_bvh(builder.corners, builder.boxes, best_kernel());
+    g.stats.placed_triangles = static_cast<std::uint32_t>(builder.corners.size() / 9);
+    std::size_t bytes = g.bvh.bytes, triangles = g.bvh.triangle_count;
+    for (const auto& [mesh, shared] : builder.shared)
+        bytes += shared->bvh.bytes, triangles += shared->bvh.triangle_count;
+    g.stats.triangles = static_cast<std::int64_t>(triangles);
+    g.stats.unbounded = static_cast<std::int64_t>(g.unbounded.size());
+    g.stats.bytes = static_cast<std::int64_t>(bytes);
     return geometry;
 }
 
+GeometryStats geometry_stats(const Geometry& g) { return g.stats; }
+
 std::span<const GeometryItem> geometry_items(const Geometry& geometry) { return geometry.items; }
 
-GeometryStats geometry_stats(const Geometry& g) {
-    GeometryStats s;
-    for (const Primitive& p : g.primitives) ++(mesh_of(g.items[p.item]) ? s.triangles : s.shapes);
-    s.unbounded = static_cast<std::int64_t>(g.unbounded.size());
-    const double bytes = static_cast<double>(g.nodes.size() * sizeof(Node) +
-                                             g.primitives.size() * (sizeof(Primitive) + sizeof(Triangle)));
-    s.bytes_per_triangle = s.triangles ? bytes / static_cast<double>(s.triangles) : 0;
-    return s;
-}
-
 std::optional<Hit> closest_hit(const Geometry& g, const Ray& ray, RayKind kind) {
-    const Found f = trace(g, ray, kind, false);
-    if (!f.any) return std::nullopt;
-    const GeometryItem& item = g.items[f.item];
-    Hit hit;
-    hit.t = f.t;
-    hit.surface = f.item;
-    hit.primitive = f.primitive;
-    if (mesh_of(item)) {
-        finish_mesh_hit(g, f, item, hit);
-        return hit;
+    const Prepared prepared = prepare(ray.origin, ray.direction, ray.t_min, ray.t_max, g.scale);
+    Trace trace{g, ray, ray_bit(kind), prepared};
+    // Unbounded shapes are met in world units: a ray that starts far away is not cut for them.
+    KernelHit hit;
+    hit.t = prepared.to_kernel(ray.t_max);
+    for (std::size_t i = 0; i < g.unbounded.size(); ++i)
+        if (!(g.items[g.unbounded[i]].hidden_from & trace.bit))
+            meets_shape(trace, g.unbounded[i], g.unbounded_primitive[i], hit);
+    if (!prepared.misses) {
+        KernelRay kernel_ray = prepared.ray;
+        kernel_ray.t_max = std::min(kernel_ray.t_max, std::nextafter(hit.t, infinity));
+        closest(g.bvh, kernel_ray, calls_for(trace), hit);
     }
-    hit.position = ray.origin + f.t * ray.direction;
-    const Vec3 n = transform_normal(item.to_world, f.shape_hit.normal);
-    hit.normal = hit.shading_normal = (item.inverse ? -1.0 : 1.0) * glm::normalize(n);
-    hit.uv = f.shape_hit.uv;
-    // Rounding of the way there and of the shape's own coordinates, whose size the bounds tell.
-    Vec3 size = glm::abs(ray.origin) + glm::abs(hit.position);
-    if (std::isfinite(g.bounds[f.item].low.x))
-        size = glm::max(size, glm::max(glm::abs(g.bounds[f.item].low), glm::abs(g.bounds[f.item].high)));
-    hit.error = 0x1p-47 * std::max({size.x, size.y, size.z});
-    return hit;
+    if (hit.primitive == no_primitive) return std::nullopt;
+    return finish(g, ray, prepared, trace, hit);
 }
 
-bool is_occluded(const Geometry& g, const Ray& ray, RayKind kind) { return trace(g, ray, kind, true).any; }
-
-MeshData tessellate(const BicubicPatch& patch) {
-    const int rows = 1 << std::clamp(patch.v_steps, 0, 10), columns = 1 << std::clamp(patch.u_steps, 0, 10);
-    const auto basis = [](double t, double(&b)[4], double(&d)[4]) {
-        const double s = 1 - t;
-        b[0] = s * s * s, b[1] = 3 * s * s * t, b[2] = 3 * s * t * t, b[3] = t * t * t;
-        d[0] = -3 * s * s, d[1] = 3 * s * s - 6 * s * t, d[2] = 6 * s * t - 3 * t * t, d[3] = 3 * t * t;
-    };
-    MeshData mesh;
-    for (int row = 0; row <= rows; ++row) {
-        for (int column = 0; column <= columns; ++column) {
-            double bu[4], du[4], bv[4], dv[4];
-            basis(static_cast<double>(column) / columns, bu, du);
-            basis(static_cast<double>(row) / rows, bv, dv);
-            Vec3 p(0), along_u(0), along_v(0);
-            for (std::size_t r = 0; r < 4; ++r)
-                for (std::size_t c = 0; c < 4; ++c) {
-                    const Vec3& q = patch.points[r * 4 + c];
-                    p += bu[c] * bv[r] * q;
-                    along_u += du[c] * bv[r] * q;
-                    along_v += bu[c] * dv[r] * q;
-                }
-            const Vec3 n = glm::cross(along_u, along_v);
-            mesh.positions.emplace_back(p);
-            mesh.normals.emplace_back(n == Vec3(0) ? Vec3(0) : glm::normalize(n));
-            mesh.uvs.emplace_back(static_cast<double>(column) / columns, static_cast<double>(row) / rows);
-        }
-    }
-    const auto at = [&](int row, int column) {
-        return static_cast<std::uint32_t>(row * (columns + 1) + column);
-    };
-    for (int row = 0; row < rows; ++row)
-        for (int column = 0; column < columns; ++column) {
-            mesh.triangles.push_back({at(row, column), at(row, column + 1), at(row + 1, column + 1)});
-            mesh.triangles.push_back({at(row, column), at(row + 1, column + 1), at(row + 1, column)});
-        }
-    // Where an edge of the patch has shrunk to a point its normal comes from the triangles around it.
-    const std::vector<Vec3f> around = area_weighted_normals(mesh.positions, mesh.triangles);
-    for (std::size_t i = 0; i < mesh.normals.size(); ++i)
-        if (mesh.normals[i] == Vec3f(0)) mesh.normals[i] = around[i];
-    mesh.normal_triangles = mesh.triangles;
-    mesh.uv_triangles = mesh.triangles;
-    return mesh;
+bool is_occluded(const Geometry& g, const Ray& ray, RayKind kind) {
+    const Prepared prepared = prepare(ray.origin, ray.direction, ray.t_min, ray.t_max, g.scale);
+    Trace trace{g, ray, ray_bit(kind), prepared};
+    KernelHit hit;
+    hit.t = prepared.to_kernel(ray.t_max);
+    for (std::size_t i = 0; i < g.unbounded.size(); ++i)
+        if (!(g.items[g.unbounded[i]].hidden_from & trace.bit) &&
+            meets_shape(trace, g.unbounded[i], g.unbounded_primitive[i], hit))
+            return true;
+    return !prepared.misses && occluded(g.bvh, prepared.ray, calls_for(trace));
 }
 
 } // namespace pnr

@@ -38,13 +38,15 @@ inline std::uint8_t ray_bit(RayKind kind) {
     return static_cast<std::uint8_t>(1u << static_cast<unsigned>(kind));
 }
 
-// Builds the BVH. World space has the scene's centre as its origin and the given radius. Degenerate triangles
-// and shapes are kept out: nothing hits them.
-std::shared_ptr<const Geometry> make_geometry(std::vector<GeometryItem> items, double radius);
+// Builds the BVH. Degenerate triangles and shapes are kept out: nothing hits them. Meshes that stand in the
+// scene more than once, and are large, are built once and met in their own space.
+std::shared_ptr<const Geometry> make_geometry(std::vector<GeometryItem> items);
 
 struct GeometryStats {
-    std::int64_t triangles = 0, shapes = 0, unbounded = 0;
-    double bytes_per_triangle = 0; // nodes and leaf data
+    std::int64_t triangles = 0; // in the BVHs; a shared mesh counts once
+    std::int64_t shapes = 0, instances = 0, unbounded = 0;
+    std::int64_t bytes = 0;             // of nodes and leaf data
+    std::uint32_t placed_triangles = 0; // in the scene's own BVH: primitives below this number
 };
 GeometryStats geometry_stats(const Geometry& geometry);
 

@@ -334,7 +334,7 @@ World build_world(const Scene& scene, const Settings& settings) {
         std::any_of(world.objects.begin(), world.objects.end(), [](const WorldObject& o) { return o.npr; });
     world.has_specular = std::any_of(world.materials.begin(), world.materials.end(), is_specular);
     world.illumination = choose_illumination(scene, world, settings.photons);
-    world.geometry = make_geometry(std::move(builder.items), world.radius);
+    world.geometry = make_geometry(std::move(builder.items));
     return std::move(world);
 }
 

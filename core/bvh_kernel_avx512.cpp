@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sixteen boxes at a time; compiled with -mavx512f.
+#include "core/bvh_traverse.h"
+
+namespace pnr {
+
+#if defined(__AVX512F__)
+namespace {
+constexpr BvhKernel kernel{"avx512", 16, &closest<16>, &occluded<16>};
+}
+const BvhKernel* avx512_kernel() { return &kernel; }
+#else
+const BvhKernel* avx512_kernel() { return nullptr; }
+#endif
+
+} // namespace pnr
