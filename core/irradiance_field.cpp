@@ -13,14 +13,16 @@ namespace {
 
 // Strata of a final gather: rings in elevation, sectors in azimuth; sectors near pi times the rings make them
 // even.
-constexpr int rings = 14, sectors = 44;
+constexpr int rings = 11, sectors = 34;
 // Share of the mean distance to what a record sees within which it is trusted.
 constexpr double trusted_share = 0.35;
 // A level's records reach so many of its spacings.
 constexpr double reach_in_spacings = 1.75;
 // Sum of weights that is enough.
 constexpr float enough = 0.7f;
-constexpr int most_levels = 6;
+// Cosine of the largest angle between a record's normal and the point's.
+constexpr float least_aligned = 0.9f;
+constexpr int most_levels = 4;
 // One in so many photons gets its irradiance computed beforehand, from so many neighbours.
 constexpr std::size_t lit_stride = 4;
 constexpr int lit_neighbours = 64;
@@ -369,14 +371,14 @@ FieldIrradiance field_irradiance(const IrradianceField& field, const World& worl
         for (const Neighbour& near : scratch) {
             const Site& site = level.sites[near.index];
             const float aligned = glm::dot(site.normal, n);
-            if (aligned < 0.75f) continue;
+            if (aligned < least_aligned) continue;
             const float distance = std::sqrt(near.distance2);
             if (std::abs(glm::dot(site.normal, p - site.position)) > 0.35f * distance + 0.02f * level.spacing)
                 continue;
             const Record& record = record_of(field, level, near.index, world, map);
             const float own = std::min(reach, last ? std::max(record.reach, level.spacing) : record.reach);
             if (!(distance < own)) continue;
-            const float fall = 1 - distance / own, turn = (aligned - 0.75f) / 0.25f;
+            const float fall = 1 - distance / own, turn = (aligned - least_aligned) / (1 - least_aligned);
             const float weight = share * fall * fall * turn;
             sum += weight * extrapolate(record, site, p, n);
             weights += weight;
