@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs the built program as a user would, in a folder of its own.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace pnr {
+
+struct Ran {
+    int code = -1; // exit code; 128 + n if signal n killed it
+    std::string out, err;
+};
+
+using Environment = std::map<std::string, std::string>;
+
+// A folder that goes away with its owner.
+class TemporaryFolder {
+public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    void write(const std::string& name, const std::string& text) const;
+    std::string read(const std::string& name) const; // bytes; "" if it is not there
+    std::vector<std::string> names() const;          // sorted
+
+private:
+    std::filesystem::path path_;
+};
+
+// Runs pnr with `folder` as its current folder and `input` on its standard input. With signal_after >= 0 it
+// gets `signal` as soon as its standard error holds `signal_at`.
+Ran run_pnr(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+            const Environment& environment = {}, const std::string& input = "");
+Ran run_pnr_and_signal(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int signal,
+                       const std::string& signal_at);
+
+// A painted ball and a photoreal one in a box 2 wide with a hemisphere light at the ceiling.
+std::string box_scene(const std::string& more = "");
+
+} // namespace pnr
