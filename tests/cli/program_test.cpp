@@ -80,7 +80,7 @@ TEST(Program, ErrorsInAScenePointAtTheirPlace) {
     EXPECT_EQ(ran.err.find("\x1b["), std::string::npos); // no colour off a terminal
     const Ran json = run_pnr(folder, {"check", "broken.pnr", "--format", "json"});
     EXPECT_EQ(json.code, 3);
-    EXPECT_NO_THROW((void)nlohmann::json::parse(json.out)) << json.out;
+    EXPECT_TRUE(nlohmann::json::accept(json.out)) << json.out;
 }
 
 TEST(Program, PicturesHaveTheSizeOfTheContract) {
@@ -117,7 +117,7 @@ TEST(Program, ExistingPicturesAreReplacedOrKeptAsAsked) {
     EXPECT_EQ(folder.read("a.png"), "old");
     EXPECT_EQ(run_pnr(folder, {"render", "a.pnr", "-W", "8"}).code, 0);
     EXPECT_EQ(folder.read("a.png").substr(1, 3), "PNG");
-    EXPECT_EQ(folder.names(), (Words{"a.pnr", "a.png"}));
+    EXPECT_EQ(folder.names(), (Words{"a.png", "a.pnr"}));
 }
 
 TEST(Program, ThreadsAndCropDoNotChangeABit) {

@@ -135,7 +135,7 @@ plane { -x, -1 pigment { rgb <0.2, 0.9, 0.2> } finish { Wall } }
 plane { -z, -1 pigment { rgb 0.9 } finish { Wall } }
 plane { z, -3 pigment { rgb 0.9 } finish { Wall } }
 sphere { <-0.35, 0.5, 0.1>, 0.5 pigment { rgb <0.9, 0.7, 0.4> } finish { Wall }
-  npr { seeds { seed { <-0.35, 1, 0.1>, x } seed { <-0.35, 0.5, -0.4>, y } seed { <-0.85, 0.5, 0.1>, y }
+  npr { interpolation { radius 20 } seeds { seed { <-0.35, 1, 0.1>, x } seed { <-0.35, 0.5, -0.4>, y } seed { <-0.85, 0.5, 0.1>, y }
                 seed { <0.15, 0.5, 0.1>, y } } } }
 sphere { <0.5, 0.35, -0.3>, 0.35 pigment { rgb 0.9 } finish { Wall } }
 )" + more;
