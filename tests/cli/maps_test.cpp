@@ -230,7 +230,12 @@ TEST_F(Maps, MainPictureHoldsTheSumOfTheLayersAndTheAovs) {
 
 TEST_F(Maps, PassTimesAddUpToTheProcess) {
     const nlohmann::json stats = nlohmann::json::parse(folder->read("s.json"));
-    for (const auto& pass : stats["passes"]) EXPECT_GT(pass["peak_rss_mb"], 0.0) << pass["name"];
+    double cpu = 0;
+    for (const auto& pass : stats["passes"]) {
+        EXPECT_GT(pass["peak_rss_mb"], 0.0) << pass["name"];
+        cpu += pass["cpu_s"].get<double>();
+    }
+    EXPECT_NEAR(cpu, ran.cpu_s, 0.05 * ran.cpu_s);
     EXPECT_GT(stats["photons"]["npr"], 500);
     EXPECT_EQ(stats["photons"]["emitted"], 15000);
 }

@@ -9,6 +9,8 @@
 #include <iterator>
 #include <poll.h>
 #include <stdexcept>
+#include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -108,7 +110,12 @@ Ran run(const TemporaryFolder& folder, const std::vector<std::string>& arguments
         }
     }
     int status = 0;
-    ::waitpid(child, &status, 0);
+    rusage usage{};
+    ::wait4(child, &status, 0, &usage);
+    const auto seconds = [](const timeval& t) {
+        return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    };
+    ran.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
     ran.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return ran;
 }

@@ -12,6 +12,7 @@ namespace pnr {
 struct Ran {
     int code = -1; // exit code; 128 + n if signal n killed it
     std::string out, err;
+    double cpu_s = 0; // of the process, all threads
 };
 
 using Environment = std::map<std::string, std::string>;
@@ -33,10 +34,10 @@ private:
     std::filesystem::path path_;
 };
 
-// Runs pnr with `folder` as its current folder and `input` on its standard input. With signal_after >= 0 it
-// gets `signal` as soon as its standard error holds `signal_at`.
+// Runs pnr with `folder` as its current folder and `input` on its standard input.
 Ran run_pnr(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
             const Environment& environment = {}, const std::string& input = "");
+// The same; it gets `signal` as soon as its standard error holds `signal_at`.
 Ran run_pnr_and_signal(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int signal,
                        const std::string& signal_at);
 
