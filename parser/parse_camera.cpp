@@ -46,9 +46,9 @@ void parse_projection(Parser& p, const Token& word, Camera& camera) {
     else if (is(word, "orthographic"_kw))
         camera.projection = Projection::orthographic;
     else {
-        warn_unsupported(p, word, "camera type " + token_text(p, word),
+        warn_unsupported(p, word, "camera type " + token_text(p, word, false),
                          "a perspective camera takes its place");
-        skip_argument(p, token_text(p, word));
+        skip_argument(p, token_text(p, word, false));
     }
 }
 

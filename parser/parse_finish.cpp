@@ -57,8 +57,8 @@ void parse_reflection(Parser& p, Finish& finish) {
 
 // What an ignored finish word takes: a block, numbers, or nothing.
 void skip_finish_word(Parser& p, const Token& word) {
-    warn_unsupported(p, word, token_text(p, word), "the finish goes without it");
-    skip_argument(p, token_text(p, word));
+    warn_unsupported(p, word, token_text(p, word, false), "the finish goes without it");
+    skip_argument(p, token_text(p, word, false));
 }
 
 void parse_diffuse(Parser& p, Finish& finish) {
@@ -122,7 +122,7 @@ bool parse_finish_word(Parser& p, Finish& f) {
     case "fade_distance"_kw:
     case "fade_power"_kw:
         warn(p, next(p),
-             fmt::format("`{}` belongs into `interior`; here it is ignored", token_text(p, word)));
+             fmt::format("`{}` belongs into `interior`; here it is ignored", token_text(p, word, false)));
         parse_float(p);
         return true;
     default:

@@ -118,7 +118,7 @@ void parse_mesh_triangle(Parser& p, MeshBuilder& mesh, bool smooth) {
             parse_uv_corners(p, mesh);
         else if (at(p, "texture"_kw) || at(p, "texture_list"_kw)) {
             warn_unsupported(p, next(p), "texture of single triangles", "a mesh has one texture");
-            skip_block(p, token_text(p, word));
+            skip_block(p, token_text(p, word, false));
         } else
             unexpected(p, "triangle", {"uv_vectors"_kw, "texture"_kw});
     });

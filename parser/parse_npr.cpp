@@ -225,7 +225,7 @@ void parse_ilic(Parser& p, PaintWord& word) {
 
 void parse_style(Parser& p, PaintWord& word) {
     const Token name = next(p);
-    const std::string text = token_text(p, name);
+    const std::string text = token_text(p, name, false);
     PaintStyle trial;
     if (name.kind != TokenKind::word || !set_style(trial, text)) {
         std::string known;

@@ -234,14 +234,14 @@ bool at_declared_object(Parser& p, Object& object) {
     const auto* declared = accept_declared<Object>(p);
     if (!declared) return false;
     object = *declared;
-    object.name = token_text(p, name);
+    object.name = token_text(p, name, false);
     return true;
 }
 
 // A shape's statement behind its word: its own items, or a declared object of any shape, then modifiers.
 Object parse_shape_statement(Parser& p, const Token& word, ShapeParser parse_shape) {
     Object object;
-    const std::string what = token_text(p, word);
+    const std::string what = token_text(p, word, false);
     bool started = false;
     block(p, what, [&] {
         if (!started) {
@@ -286,7 +286,7 @@ bool parse_group_child(Parser& p, Object& group) {
         group.children.push_back(std::move(*child));
     else if (const auto* declared = accept_declared<Object>(p)) {
         group.children.push_back(*declared);
-        group.children.back().name = token_text(p, word);
+        group.children.back().name = token_text(p, word, false);
     } else
         return false;
     return true;
@@ -295,7 +295,7 @@ bool parse_group_child(Parser& p, Object& group) {
 // union, and the kinds of CSG that we lack.
 Object parse_group(Parser& p, const Token& word) {
     Object group;
-    const std::string what = token_text(p, word);
+    const std::string what = token_text(p, word, false);
     const bool first_alone = is(word, "difference"_kw) || is(word, "intersection"_kw);
     if (is(word, "merge"_kw)) warn_unsupported(p, word, what, "its parts are drawn as a union");
     if (first_alone) warn_unsupported(p, word, what, "its first part is drawn whole");
@@ -323,8 +323,8 @@ std::optional<Object> parse_object(Parser& p) {
     else if (accept(p, "object"_kw))
         object = parse_object_reference(p);
     else if (is_unsupported_object(word)) {
-        warn_unsupported(p, next(p), token_text(p, word), "such objects are left out");
-        skip_block(p, token_text(p, word));
+        warn_unsupported(p, next(p), token_text(p, word, false), "such objects are left out");
+        skip_block(p, token_text(p, word, false));
     } else
         return std::nullopt;
     object.said_at = source_ref(p, word);

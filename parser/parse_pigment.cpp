@@ -107,11 +107,11 @@ void parse_gradient(Parser& p, const Token& word, Pigment& pigment) {
 }
 
 void parse_unsupported_pattern(Parser& p, const Token& word, Pigment& pigment) {
-    warn_unsupported(p, word, token_text(p, word), "its mean colour is painted");
+    warn_unsupported(p, word, token_text(p, word, false), "its mean colour is painted");
     pigment.pattern = UniformPattern{};
     pigment.map = gray_ramp();
     while (at_color(p)) parse_color(p), accept_comma(p);
-    if (at(p, '{')) skip_block(p, token_text(p, word));
+    if (at(p, '{')) skip_block(p, token_text(p, word, false));
 }
 
 // Words behind a pattern that shape it. False if none stands here.
@@ -144,8 +144,8 @@ bool parse_pattern_modifier(Parser& p, Pigment& pigment) {
     case "scallop_wave"_kw:
     case "cubic_wave"_kw:
     case "poly_wave"_kw:
-        warn_unsupported(p, next(p), token_text(p, word), "the pattern is drawn without it");
-        skip_argument(p, token_text(p, word));
+        warn_unsupported(p, next(p), token_text(p, word, false), "the pattern is drawn without it");
+        skip_argument(p, token_text(p, word, false));
         return true;
     case "octaves"_kw:
     case "omega"_kw:
@@ -163,7 +163,7 @@ bool parse_pattern_modifier(Parser& p, Pigment& pigment) {
     case "exponent"_kw:
     case "exterior"_kw:
     case "interior"_kw:
-        next(p), skip_argument(p, token_text(p, word));
+        next(p), skip_argument(p, token_text(p, word, false));
         return true;
     default:
         return false;
@@ -311,7 +311,7 @@ ImagePattern parse_image_map(Parser& p) {
         case "transmit"_kw:
         case "use_index"_kw:
         case "use_alpha"_kw:
-            warn_unsupported(p, next(p), token_text(p, word), "the picture's own values are used");
+            warn_unsupported(p, next(p), token_text(p, word, false), "the picture's own values are used");
             accept(p, "all"_kw);
             while (at_expression(p)) parse_float(p), accept_comma(p);
             return;

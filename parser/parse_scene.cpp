@@ -93,8 +93,8 @@ void parse_scene_item(Parser& p) {
     if (accept(p, "background"_kw)) return parse_background(p);
     if (accept(p, "global_settings"_kw)) return parse_global_settings(p);
     if (is_unsupported_item(word)) {
-        warn_unsupported(p, next(p), token_text(p, word), "it is left out");
-        return skip_block(p, token_text(p, word));
+        warn_unsupported(p, next(p), token_text(p, word, false), "it is left out");
+        return skip_block(p, token_text(p, word, false));
     }
     if (accept(p, ';')) return;
     unexpected(p, "a scene",
@@ -180,9 +180,9 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
     case "slope_map"_kw:
     case "density_map"_kw:
     case "warp"_kw:
-        warn_unsupported(p, next(p), token_text(p, word), "it is left out");
-        skip_block(p, token_text(p, word));
-        return SkippedBlock{token_text(p, word)};
+        warn_unsupported(p, next(p), token_text(p, word, false), "it is left out");
+        skip_block(p, token_text(p, word, false));
+        return SkippedBlock{token_text(p, word, false)};
     default:
         return std::nullopt;
     }

@@ -67,7 +67,7 @@ void parse_photons(Parser& p) {
             return;
         case "save_file"_kw:
         case "load_file"_kw:
-            warn(p, next(p), fmt::format("`{}` is ignored", token_text(p, word)),
+            warn(p, next(p), fmt::format("`{}` is ignored", token_text(p, word, false)),
                  "use the options --save-photons and --load-photons");
             parse_string(p);
             return;

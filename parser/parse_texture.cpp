@@ -17,7 +17,7 @@ bool skip_texture_word(Parser& p, Texture& texture, bool& first) {
     case "texture_map"_kw:
     case "material_map"_kw:
     case "tiles"_kw:
-        warn_unsupported(p, next(p), token_text(p, word), "the first texture of it is used");
+        warn_unsupported(p, next(p), token_text(p, word, false), "the first texture of it is used");
         if (word.symbol != static_cast<Symbol>("texture_map"_kw)) return skip_block(p, "texture"), true;
         block(p, "texture_map", [&] {
             expect(p, '[', "to start an entry of `texture_map`");
