@@ -150,7 +150,6 @@ void for_directive(Parser& p, const Token& opener) {
     if (name.kind != TokenKind::word || is_reserved(name.symbol))
         fail(p, name, fmt::format("expected the name of the loop's variable, found {}", token_text(p, name)));
     ForLoop loop;
-    loop.opener = static_cast<std::uint32_t>(&opener - p.in.frames.back().tokens);
     loop.variable = name.symbol;
     expect(p, ',', "after the loop's variable");
     loop.value = parse_condition(p);
@@ -165,6 +164,7 @@ void for_directive(Parser& p, const Token& opener) {
         return;
     }
     count_turn(p, opener);
+    loop.body = p.in.frames.back().position;
     p.in.loops.push_back(loop);
 }
 
@@ -177,16 +177,7 @@ void next_for_turn(Parser& p, const Token& opener) {
     assign(p, loop.variable, Value{loop.value}, true);
     if (for_goes_on(loop)) {
         count_turn(p, opener);
-        jump(p, loop.opener + 1.0);
-        // the head has been read: to behind its closing parenthesis
-        int depth = 0;
-        do {
-            const Token token = next_raw(p);
-            if (is(token, '('))
-                ++depth;
-            else if (is(token, ')'))
-                --depth;
-        } while (depth > 0);
+        p.in.frames.back().position = loop.body;
     } else {
         p.in.loops.pop_back();
     }
@@ -250,6 +241,12 @@ void default_directive(Parser& p) {
     p.in.hold = before;
 }
 
+void debug_directive(Parser& p) {
+    const std::string text = message_text(p);
+    const std::size_t most = p.in.options.budgets.debug_output;
+    if (p.in.debug_output.size() < most) p.in.debug_output += text.substr(0, most - p.in.debug_output.size());
+}
+
 void error_directive(Parser& p, const Token& directive) {
     std::string text = message_text(p);
     while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -311,8 +308,7 @@ void dispatch(Parser& p, const Token& directive) {
     case "version"_kw:
         return version_directive(p);
     case "debug"_kw:
-        p.in.debug_output += message_text(p);
-        return;
+        return debug_directive(p);
     case "warning"_kw:
         return warning_directive(p, directive);
     case "error"_kw:

@@ -70,7 +70,7 @@ void declare_directive(Parser& p, const Token& directive, bool local) {
         Target target = take_target(p, directive);
         expect(p, '=', "after the name to declare");
         p.in.hold.start = p.in.frames.back().position;
-        Value value = parse_value(p);
+        Value value = stored_value(p, name, parse_value(p));
         if (!target.array) {
             assign(p, target.symbol, std::move(value), local);
         } else {
@@ -212,7 +212,7 @@ void take_arguments(Parser& p, const Macro& macro, const Token& name, std::vecto
                 arguments.push_back(reference_argument(p));
             } else {
                 auto cell = std::make_shared<Cell>();
-                cell->value = parse_value(p);
+                cell->value = stored_value(p, name, parse_value(p));
                 arguments.push_back({0, std::move(cell), nullptr, 0});
             }
             if (accept(p, ')')) break;

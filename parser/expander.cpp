@@ -217,17 +217,49 @@ Value& value_at(const Binding& binding) {
     return binding.array ? binding.array->elements[binding.element] : binding.cell->value;
 }
 
-Value deep_copy(const Value& value) {
+constexpr int deepest_array = 16; // arrays in arrays
+
+Value deep_copy(Parser& p, const Token& at, const Value& value, int depth) {
     const auto* array = std::get_if<std::shared_ptr<ArrayValue>>(&value.data);
     if (!array) return value;
-    auto copy = std::make_shared<ArrayValue>();
-    copy->dimensions = (*array)->dimensions;
-    copy->elements.reserve((*array)->elements.size());
-    for (const Value& element : (*array)->elements) copy->elements.push_back(deep_copy(element));
+    if (depth > deepest_array) fail(p, at, fmt::format("arrays in arrays go deeper than {}", deepest_array));
+    auto copy = make_array(p, at, (*array)->dimensions);
+    for (std::size_t i = 0; i < copy->elements.size(); ++i)
+        copy->elements[i] = deep_copy(p, at, (*array)->elements[i], depth + 1);
     return Value{std::move(copy)};
 }
 
+int array_depth(const Value& value) {
+    const auto* array = std::get_if<std::shared_ptr<ArrayValue>>(&value.data);
+    if (!array) return 0;
+    int deepest = 0;
+    for (const Value& element : (*array)->elements) deepest = std::max(deepest, array_depth(element));
+    return deepest + 1;
+}
+
 } // namespace
+
+std::shared_ptr<ArrayValue> make_array(Parser& p, const Token& at, std::vector<int> dimensions) {
+    std::size_t elements = 1;
+    for (const int size : dimensions) elements *= static_cast<std::size_t>(size);
+    charge(p, at, elements * sizeof(Value));
+    std::shared_ptr<ArrayValue> array(new ArrayValue, [ledger = p.in.bytes](ArrayValue* gone) {
+        *ledger -= static_cast<std::int64_t>(gone->elements.size() * sizeof(Value));
+        delete gone;
+    });
+    array->dimensions = std::move(dimensions);
+    array->elements.resize(elements);
+    return array;
+}
+
+Value stored_value(Parser& p, const Token& at, Value value) {
+    const auto* array = std::get_if<std::shared_ptr<ArrayValue>>(&value.data);
+    if (!array) return value;
+    if (array->use_count() > 1) return deep_copy(p, at, value, 1);
+    if (array_depth(value) > deepest_array)
+        fail(p, at, fmt::format("arrays in arrays go deeper than {}", deepest_array));
+    return value;
+}
 
 Value* lookup(Expander& in, Symbol symbol) {
     if (symbol >= in.symbols.size()) return nullptr;
@@ -254,9 +286,6 @@ void assign(Parser& p, Symbol symbol, Value value, bool local) {
     SymbolEntry& entry = in.symbols[symbol];
     entry.poisoned = false;
     const std::uint32_t scope = local && !in.frames.empty() ? in.frames.back().scope : 0;
-    if (const auto* array = std::get_if<std::shared_ptr<ArrayValue>>(&value.data);
-        array && array->use_count() > 1)
-        value = deep_copy(value);
     const bool in_place = !entry.bindings.empty() && (!local || entry.bindings.back().scope == scope);
     if (in_place) {
         value_at(entry.bindings.back()) = std::move(value);
@@ -295,8 +324,8 @@ Nesting::Nesting(Parser& p, const Token& at) : in(p.in) {
 }
 
 void charge(Parser& p, const Token& at, std::size_t bytes) {
-    p.in.used.bytes += static_cast<std::int64_t>(bytes);
-    if (p.in.used.bytes > p.in.options.budgets.bytes)
+    *p.in.bytes += static_cast<std::int64_t>(bytes);
+    if (*p.in.bytes > p.in.options.budgets.bytes)
         stop(p, at, fmt::format("the scene needs more than {} MB", p.in.options.budgets.bytes / 1'000'000),
              "does a loop make objects without an end?");
 }

@@ -60,8 +60,8 @@ struct TokenFrame {
     std::shared_ptr<const Macro> macro; // null: a file
 };
 
-struct ForLoop { // a #for that is running
-    std::uint32_t opener = 0;
+struct ForLoop {            // a #for that is running
+    std::uint32_t body = 0; // index of its first token
     Symbol variable = 0;
     double value = 0, last = 0, step = 1;
 };
@@ -86,7 +86,8 @@ struct Hold {
 };
 
 struct Counters {
-    std::int64_t loop_turns = 0, macro_calls = 0, tokens = 0, bytes = 0;
+    std::int64_t loop_turns = 0, macro_calls = 0, tokens = 0;
+    int failures = 0, warnings = 0;
     int nesting = 0, macro_depth = 0, include_depth = 0;
 };
 
@@ -117,6 +118,8 @@ struct Expander {
     Hold hold;
 
     Counters used;
+    std::shared_ptr<std::int64_t> bytes =
+        std::make_shared<std::int64_t>(0); // in use; arrays give theirs back
     int errors = 0;
     std::unordered_set<std::uint64_t> reported; // hashes of (place, message)
     std::vector<std::uint32_t> random_streams;
@@ -155,9 +158,14 @@ const std::vector<Token>& tokens_of(Expander& in, std::uint32_t source); // lexe
 const Value* lookup(const Expander& in, Symbol symbol); // null: not declared (or declared without a value)
 Value* lookup(Expander& in, Symbol symbol);
 bool is_declared(const Expander& in, Symbol symbol);
+// An array of unset elements; its memory is charged until it is freed.
+std::shared_ptr<ArrayValue> make_array(Parser& p, const Token& at, std::vector<int> dimensions);
+// What an assignment stores: arrays are copied unless nobody else holds them. Arrays in arrays in arrays ...
+// are an error.
+Value stored_value(Parser& p, const Token& at, Value value);
 // #declare: the visible variable, or a new global. #local: this frame's, or a new one in it.
-void assign(Parser& p, Symbol symbol, Value value, bool local);
-void bind(Parser& p, Symbol symbol, Binding binding); // a new binding in the current scope
+void assign(Parser& p, Symbol symbol, Value value, bool local); // of a stored value
+void bind(Parser& p, Symbol symbol, Binding binding);           // a new binding in the current scope
 void undefine(Expander& in, Symbol symbol);
 // The value of the identifier that is next, with its subscripts, all taken. Error if it has none.
 const Value& take_variable(Parser& p);
@@ -175,6 +183,8 @@ struct Nesting {
     Nesting(const Nesting&) = delete;
     Nesting& operator=(const Nesting&) = delete;
 };
+// Counts a failure and throws ParseFailure: for errors that have been recorded before.
+[[noreturn]] void give_up(Parser& p, const Token& at);
 [[noreturn]] void stop(Parser& p, const Token& at, std::string message, std::string help = {});
 
 } // namespace pnr

@@ -13,7 +13,7 @@ namespace {
 
 [[noreturn]] void unknown_identifier(Parser& p, const Token& token) {
     SymbolEntry& entry = p.in.symbols[token.symbol];
-    if (entry.poisoned) throw ParseFailure{}; // reported where it was first met
+    if (entry.poisoned) give_up(p, token); // reported where it was first met
     entry.poisoned = true;
     std::vector<std::string_view> candidates;
     for (Symbol s = 0; s < p.in.symbols.size(); ++s)
@@ -375,7 +375,7 @@ void fill_array(Parser& p, ArrayValue& array, std::size_t dimension, std::size_t
             if (dimension + 1 < array.dimensions.size())
                 fill_array(p, array, dimension + 1, element, name);
             else
-                array.elements[element++] = parse_value(p);
+                array.elements[element++] = stored_value(p, name, parse_value(p));
             if (!accept(p, ',')) accept(p, ';');
         }
     } catch (const ParseFailure&) {
@@ -392,7 +392,7 @@ void fill_array(Parser& p, ArrayValue& array, std::size_t dimension, std::size_t
 
 Value array_value(Parser& p) {
     const Token name = next(p);
-    auto array = std::make_shared<ArrayValue>();
+    std::vector<int> dimensions;
     double count = 1;
     while (is(peek_operator(p), '[')) {
         next(p);
@@ -405,19 +405,17 @@ Value array_value(Parser& p) {
             stop(p, first,
                  fmt::format("the array has more than {} elements", p.in.options.budgets.array_elements));
         expect(p, ']', "to close the size");
-        array->dimensions.push_back(static_cast<int>(size));
-        if (array->dimensions.size() > 15) fail(p, first, "an array has at most 15 dimensions");
+        dimensions.push_back(static_cast<int>(size));
+        if (dimensions.size() > 15) fail(p, first, "an array has at most 15 dimensions");
     }
-    const auto elements = static_cast<std::size_t>(count);
-    charge(p, name, elements * sizeof(Value));
-    array->elements.resize(elements);
-    if (array->dimensions.empty()) fail(p, name, "expected the size, `array[n]`");
+    if (dimensions.empty()) fail(p, name, "expected the size, `array[n]`");
+    const std::shared_ptr<ArrayValue> array = make_array(p, name, std::move(dimensions));
     if (is(peek_operator(p), '{')) {
         const Nesting nesting(p, name);
         std::size_t element = 0;
         fill_array(p, *array, 0, element, name);
     }
-    return Value{std::move(array)};
+    return Value{array};
 }
 
 Value parse_value(Parser& p) {

@@ -6,6 +6,7 @@
 #include "core/settings.h"
 #include "parser/diagnostic.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -19,15 +20,17 @@ namespace pnr {
 // error.
 struct Budgets {
     std::int64_t loop_turns = 20'000'000; // of #while and #for together
-    std::int64_t macro_calls = 20'000'000;
-    std::int64_t tokens = 200'000'000;       // read after expansion
+    std::int64_t macro_calls = 10'000'000;
+    std::int64_t tokens = 100'000'000;       // read after expansion
     std::int64_t bytes = 1'200'000'000;      // of objects, meshes, arrays and strings
     std::int64_t array_elements = 4'000'000; // of one array
     std::int64_t string_length = 1'000'000;
     std::int64_t file_bytes = 1'000'000'000; // of one text
     int macro_depth = 300, include_depth = 64;
-    int nesting = 400; // braces and parentheses
-    int errors = 50;   // reported in one run
+    int nesting = 400;               // braces and parentheses
+    int errors = 50, warnings = 200; // reported in one run
+    int failures = 20'000;           // places that could not be read, also those that are not reported again
+    std::size_t debug_output = 16'000'000; // bytes of #debug text that are kept
 };
 
 struct LoadOptions {

@@ -150,21 +150,31 @@ std::uint64_t place_hash(const Span& span, std::string_view message) {
 void record(Parser& p, Severity severity, const Token& at, std::string message, std::string help,
             std::vector<Note> notes = {}) {
     Expander& in = p.in;
+    if (severity == Severity::warning && in.used.warnings >= in.options.budgets.warnings) return;
     if (!in.reported.insert(place_hash(at.span, message)).second) return;
     for (Note& note : chain_notes(in, at.chain)) notes.push_back(std::move(note));
     in.diagnostics.push_back({severity, at.span, std::move(message), std::move(notes), std::move(help)});
-    if (severity != Severity::error) return;
-    if (++in.errors < in.options.budgets.errors) return;
-    in.diagnostics.push_back(
-        {Severity::note, at.span, fmt::format("{} errors; the rest is not read", in.errors), {}, {}});
-    throw ParseStop{};
+    if (severity == Severity::warning && ++in.used.warnings == in.options.budgets.warnings)
+        in.diagnostics.push_back({Severity::note, at.span, "more warnings are not shown", {}, {}});
+    if (severity == Severity::error && ++in.errors == in.options.budgets.errors) {
+        in.diagnostics.push_back(
+            {Severity::note, at.span, fmt::format("{} errors; the rest is not read", in.errors), {}, {}});
+        throw ParseStop{};
+    }
 }
 
 } // namespace
 
+void give_up(Parser& p, const Token& at) {
+    if (++p.in.used.failures < p.in.options.budgets.failures) throw ParseFailure{};
+    p.in.diagnostics.push_back(
+        {Severity::note, at.span, "the same errors occur over and over; the rest is not read", {}, {}});
+    throw ParseStop{};
+}
+
 void fail(Parser& p, const Token& at, std::string message, std::string help) {
     record(p, Severity::error, at, std::move(message), std::move(help));
-    throw ParseFailure{};
+    give_up(p, at);
 }
 
 void stop(Parser& p, const Token& at, std::string message, std::string help) {
@@ -186,7 +196,7 @@ void unexpected(Parser& p, std::string_view inside, std::initializer_list<Keywor
     const Token token = peek(p);
     std::string help;
     if (token.kind == TokenKind::word) {
-        if (token.symbol < p.in.symbols.size() && p.in.symbols[token.symbol].poisoned) throw ParseFailure{};
+        if (token.symbol < p.in.symbols.size() && p.in.symbols[token.symbol].poisoned) give_up(p, token);
         std::vector<std::string_view> candidates;
         for (const Keyword keyword : allowed) candidates.push_back(keyword_text(keyword));
         const std::string_view word = p.in.words.text(token.symbol);
@@ -206,7 +216,7 @@ void unexpected(Parser& p, std::string_view inside, std::initializer_list<Keywor
     std::string message = unknown ? fmt::format("unknown word {} in {}", token_text(p, token), inside)
                                   : fmt::format("unexpected {} in {}", token_text(p, token), inside);
     record(p, Severity::error, token, std::move(message), std::move(help), std::move(notes));
-    throw ParseFailure{};
+    give_up(p, token);
 }
 
 // ---- names of types
