@@ -77,6 +77,34 @@ TEST(KdTree, NearestAgreesWithBruteForce) {
     }
 }
 
+// Whatever the hint says: the same neighbours, in leaf order.
+TEST(KdTree, NearestNearDoesNotDependOnTheHint) {
+    Rng rng = make_rng(4, Pass::test, 0);
+    std::vector<Neighbour> found;
+    for (const auto& given : point_sets()) {
+        std::vector<Vec3f> points; // in leaf order, so that ties are by index as everywhere
+        for (const std::uint32_t i : build_kdtree(given).order) points.push_back(given[i]);
+        const KdTree tree = kdtree_of_leaf_order(points);
+        for (int query = 0; query < 60; ++query) {
+            const Vec3f p =
+                query % 3 == 0 ? points[static_cast<std::size_t>(query * 37)] : random_point(rng) * 1.5f;
+            for (const int k : {1, 50, 1000, 5000})
+                for (const float radius : {everywhere, 0.2f, 0.f}) {
+                    std::vector<Neighbour> truth = brute_force(points, p, radius);
+                    if (truth.size() > static_cast<std::size_t>(k)) truth.resize(static_cast<std::size_t>(k));
+                    const float largest = truth.empty() ? 0 : truth.back().distance2;
+                    std::sort(truth.begin(), truth.end(),
+                              [](const Neighbour& a, const Neighbour& b) { return a.index < b.index; });
+                    for (const float distance : {0.f, 1e-6f, 0.05f, 0.5f, 1e4f}) {
+                        SearchHint hint{p + Vec3f(0.01f), distance};
+                        EXPECT_EQ(find_nearest_near(tree, p, k, radius, hint, found), largest);
+                        expect_same(found, truth);
+                    }
+                }
+        }
+    }
+}
+
 TEST(KdTree, WithinAgreesWithBruteForce) {
     Rng rng = make_rng(3, Pass::test, 0);
     std::vector<Neighbour> found;

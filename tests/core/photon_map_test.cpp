@@ -94,8 +94,10 @@ TEST_F(PhotonFile, LoadsWhatWasSaved) {
         EXPECT_EQ(loaded.balance.escaped, map.balance.escaped);
         EXPECT_EQ(loaded.radius, map.radius);
         EXPECT_EQ(loaded.tree.x, map.tree.x);
-        EXPECT_EQ(loaded.tree.low, map.tree.low);
-        EXPECT_EQ(loaded.tree.high, map.tree.high);
+        ASSERT_EQ(loaded.tree.nodes.size(), map.tree.nodes.size());
+        EXPECT_EQ(std::memcmp(loaded.tree.nodes.data(), map.tree.nodes.data(),
+                              map.tree.nodes.size() * sizeof(KdNode)),
+                  0);
     }
 }
 
