@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The files of --maps are held against one another by the rules of the file contract, from the files alone.
+#include <gtest/gtest.h>
+
 #include "core/image_io.h"
 #include "run_pnr.h"
 

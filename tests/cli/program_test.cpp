@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command line's contract, by the built program.
+#include <gtest/gtest.h>
+
 #include "core/image_io.h"
 #include "run_pnr.h"
 

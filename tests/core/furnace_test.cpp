@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A sphere lit from its centre: its wall has one known radiance everywhere, whatever finds it.
+#include <gtest/gtest.h>
+
 #include "core/path_trace.h"
 #include "core/radiance.h"
 #include "core/trace_photons.h"
