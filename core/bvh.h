@@ -16,6 +16,10 @@ struct FloatBox {
     float low[3], high[3];
 };
 
+struct alignas(line_size) CacheLine {
+    char bytes[line_size];
+};
+
 struct Bvh {
     const BvhKernel* kernel = nullptr; // whose width the nodes have
     BvhView view;
@@ -23,8 +27,7 @@ struct Bvh {
     std::size_t node_count = 0, block_count = 0, triangle_count = 0;
     std::size_t bytes = 0; // of nodes, blocks and CGAL's triangles
 
-    std::shared_ptr<const void> nodes;
-    std::vector<TriangleBlock> blocks;
+    std::vector<CacheLine> tree;
     std::unique_ptr<const ExactTriangles> triangles;
 };
 

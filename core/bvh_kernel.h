@@ -14,13 +14,13 @@ namespace pnr {
 class ExactTriangles;
 
 inline constexpr std::uint32_t no_primitive = 0xffffffffu;
-inline constexpr int bvh_block_size = 4;
 inline constexpr int bvh_max_depth = 72; // of the binary tree, which bounds the stack
 
-// Up to four triangles, lane by lane; lanes that are left over repeat the first.
-struct alignas(16) TriangleBlock {
-    float corner[3][3][bvh_block_size]; // [corner][axis][lane]
-    std::uint32_t triangle[bvh_block_size];
+// Up to B triangles, lane by lane; lanes that are left over repeat the first.
+template <int B>
+struct alignas(64) TriangleBlock {
+    float corner[3][3][B]; // [corner][axis][lane]
+    std::uint32_t triangle[B];
 };
 
 // Boxes of W children and where they lie: an inner node, a block of triangles, or another primitive. Boxes of
@@ -30,6 +30,9 @@ struct alignas(64) WideNode {
     float bound[6][W]; // low x y z, high x y z
     std::uint32_t child[W];
 };
+// A reference to a child: what it is, and its place in the tree in units of a cache line, or another
+// primitive's number.
+inline constexpr std::uint64_t line_size = 64;
 inline constexpr std::uint32_t leaf_bit = 0x80000000u, other_bit = 0x40000000u, index_mask = 0x3fffffffu;
 
 // Direction scaled by a power of two so that its largest component is in [1, 2), t accordingly; |origin| is
@@ -48,10 +51,10 @@ struct KernelHit {
 };
 
 struct BvhView {
-    const void* nodes = nullptr; // WideNode<W>
-    const TriangleBlock* blocks = nullptr;
+    const char* tree = nullptr; // WideNode<W>s and TriangleBlock<B>s, side by side as they are met
     const ExactTriangles* triangles = nullptr;
     std::uint32_t root = 0; // a child reference
+    float extent = 0;       // the largest coordinate of a triangle's corner
 };
 
 // The rest of a ray query, by function so that the kernel needs no type of the scene. `meets` tries the other
@@ -65,7 +68,8 @@ struct KernelCalls {
 
 struct BvhKernel {
     const char* name;
-    int width;
+    int width;      // W: children of a node
+    int block_size; // B: triangles of a block
     void (*closest)(const BvhView&, const KernelRay&, const KernelCalls&, KernelHit&);
     bool (*occluded)(const BvhView&, const KernelRay&, const KernelCalls&);
 };

@@ -6,7 +6,7 @@ namespace pnr {
 
 #if defined(__AVX2__)
 namespace {
-constexpr BvhKernel kernel{"avx2", 8, &closest<8>, &occluded<8>};
+constexpr BvhKernel kernel{"avx2", 8, 8, &closest<8, 8>, &occluded<8, 8>};
 }
 const BvhKernel* avx2_kernel() { return &kernel; }
 #else

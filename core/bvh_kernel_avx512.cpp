@@ -6,7 +6,7 @@ namespace pnr {
 
 #if defined(__AVX512F__)
 namespace {
-constexpr BvhKernel kernel{"avx512", 16, &closest<16>, &occluded<16>};
+constexpr BvhKernel kernel{"avx512", 16, 8, &closest<16, 8>, &occluded<16, 8>};
 }
 const BvhKernel* avx512_kernel() { return &kernel; }
 #else

@@ -6,7 +6,7 @@ namespace pnr {
 
 #if defined(__SSE2__) || defined(__ARM_NEON)
 namespace {
-constexpr BvhKernel kernel{"baseline", 4, &closest<4>, &occluded<4>};
+constexpr BvhKernel kernel{"baseline", 4, 4, &closest<4, 4>, &occluded<4, 4>};
 }
 const BvhKernel* baseline_kernel() { return &kernel; }
 #else

@@ -7,7 +7,7 @@
 namespace pnr {
 
 namespace {
-constexpr BvhKernel kernel{"scalar", 4, &closest<4>, &occluded<4>};
+constexpr BvhKernel kernel{"scalar", 4, 4, &closest<4, 4>, &occluded<4, 4>};
 }
 const BvhKernel* scalar_kernel() { return &kernel; }
 

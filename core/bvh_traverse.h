@@ -5,12 +5,14 @@
 //
 // - Whether a line meets a triangle is decided exactly. The edge functions of Woop, Benthin and Wald 2013, in
 // float,
-//   are a filter: with u = 2^-24, S the largest |x|, |y| and Z the largest |z| of the sheared corners, and
-//   |o| of the origin, each sheared coordinate is off by less than d = 4u(S + Z + |o|/2): the origin was
-//   rounded (u|o|), the corners were moved (u), the shear was rounded, multiplied and subtracted (4u Z + 2u
-//   S). So an edge function, a difference of two products, is off by less than 4 S d + 2 d^2 + 4u S^2 <= 5 d
-//   (S + d); 6 allows for the rounding of the bound itself. Signs beyond it are certain; the others are asked
-//   of CGAL.
+//   are a filter. Let u = 2^-24, S the largest |x| and |y| of the sheared corners, |o| of the origin, and Z
+//   <= |o| + the largest coordinate of all triangles, so that |z| <= Z. Each sheared coordinate is off by
+//   less than d = 4u(S + Z + |o|/2): the origin was rounded (u|o|), the corners were moved (u), the shear was
+//   rounded, multiplied and subtracted (4u Z + 2u S). So an edge function, a difference of two products, is
+//   off by less than 4 S d + 2 d^2 + 4u S^2 <= 5 d (S + d); 6 allows for the rounding of the bound itself.
+//   Signs beyond it are certain. The others are computed once more in double, with the same bound for u =
+//   2^-53 (times 4, for the second point that CGAL is given is rounded too); those still open are decided by
+//   CGAL's exact predicate.
 // - t comes from the triangle's plane in double. Of all hits in (t_min, t_max) the smallest t wins, of equal
 // t the
 //   smallest primitive.
@@ -30,9 +32,7 @@ namespace pnr {
 namespace {
 
 constexpr float unit = 0x1p-24f;
-constexpr float widen = 1 + 10 * unit;
-
-using Four = Lanes<bvh_block_size>;
+constexpr float widen = 1 + 12 * unit;
 
 struct Query {
     const BvhView& bvh;
@@ -41,14 +41,15 @@ struct Query {
     KernelHit& hit;
     // The ray in float.
     float near_origin[3], far_origin[3]; // moved against and along the ray's sense by the origin's rounding
-    float inverse[3];
+    float inverse[3], far_inverse[3];    // the latter times `widen`
     int near_row[3], far_row[3];
     float t_min;
     float t_best; // at least hit.t, times `widen`
     // The shear that makes the ray the z axis [Woop et al. 2013].
     int x, y, z;
     float origin[3], shear_x, shear_y, scale;
-    float half_origin, slack; // |o|/2 of the filter; the origin's rounding in units of t
+    double precise_shear_x, precise_shear_y;
+    float reach, slack; // Z + |o|/2 of the filter; the origin's rounding in units of t
 
     Query(const BvhView& b, const KernelRay& r, const KernelCalls& c, KernelHit& h);
     void found_t() { t_best = round_up(hit.t) * widen; } // t >= 0
@@ -74,6 +75,7 @@ Query::Query(const BvhView& b, const KernelRay& r, const KernelCalls& c, KernelH
         far_origin[k] = backwards ? o + moved : o - moved;
         const float least = 0x1p-64f;
         inverse[k] = 1 / (__builtin_fabsf(d) < least ? (backwards ? -least : least) : d);
+        far_inverse[k] = inverse[k] * widen;
         near_row[k] = backwards ? 3 + k : k;
         far_row[k] = backwards ? k : 3 + k;
     }
@@ -83,10 +85,13 @@ Query::Query(const BvhView& b, const KernelRay& r, const KernelCalls& c, KernelH
     x = z == 2 ? 0 : z + 1;
     y = x == 2 ? 0 : x + 1;
     const double along = 1 / r.direction[z];
-    shear_x = static_cast<float>(r.direction[x] * along);
-    shear_y = static_cast<float>(r.direction[y] * along);
+    precise_shear_x = r.direction[x] * along;
+    precise_shear_y = r.direction[y] * along;
+    shear_x = static_cast<float>(precise_shear_x);
+    shear_y = static_cast<float>(precise_shear_y);
     scale = static_cast<float>(along);
-    half_origin = 0.5f * largest + 0x1p-26f; // the floor keeps the bound above underflow
+    reach =
+        (b.extent + 1.5f * largest) * (1 + 4 * unit) + 0x1p-26f; // the floor keeps the bound above underflow
     slack = (4 * unit * largest + 0x1p-50f) * __builtin_fabsf(scale);
     t_min = static_cast<float>(r.t_min);
     t_min = (t_min > 0 ? t_min * (1 - 2 * unit) : t_min * (1 + 2 * unit)) - 0x1p-126f;
@@ -122,7 +127,8 @@ double plane_t(const KernelRay& ray, const double (&a)[3], const double (&b)[3],
 }
 
 // Takes the lane's triangle, which the line meets, if its t is the best so far.
-bool take(Query& q, const TriangleBlock& block, int lane) {
+template <int B>
+bool take(Query& q, const TriangleBlock<B>& block, int lane) {
     const std::uint32_t number = block.triangle[lane];
     double corner[3][3];
     for (int v = 0; v < 3; ++v)
@@ -137,43 +143,75 @@ bool take(Query& q, const TriangleBlock& block, int lane) {
     return true;
 }
 
-bool decide_exactly(const Query& q, std::uint32_t triangle) {
+enum class Side { out, in, open };
+
+// The filter once more, in double.
+template <int B>
+Side decide_in_double(const Query& q, const TriangleBlock<B>& block, int lane) {
+    double v[3][2];
+    double s = 0;
+    for (int i = 0; i < 3; ++i) {
+        const auto from_origin = [&](int axis) {
+            return static_cast<double>(block.corner[i][axis][lane]) - q.ray.origin[axis];
+        };
+        const double z = from_origin(q.z);
+        v[i][0] = from_origin(q.x) - q.precise_shear_x * z;
+        v[i][1] = from_origin(q.y) - q.precise_shear_y * z;
+        for (const double c : v[i]) s = __builtin_fabs(c) > s ? __builtin_fabs(c) : s;
+    }
+    const double d = 16 * 0x1p-53 * (s + static_cast<double>(q.reach)), bound = 6 * d * (s + d);
+    const auto edge = [&](int i, int k) { return v[i][0] * v[k][1] - v[i][1] * v[k][0]; };
+    const double e[3] = {edge(2, 1), edge(0, 2), edge(1, 0)};
+    int above = 0, below = 0;
+    for (const double x : e) {
+        above += x > bound;
+        below += x < -bound;
+    }
+    if (above > 0 && below > 0) return Side::out;
+    return above == 3 || below == 3 ? Side::in : Side::open;
+}
+
+template <int B>
+bool decide(const Query& q, const TriangleBlock<B>& block, int lane) {
+    const Side side = decide_in_double(q, block, lane);
+    if (side != Side::open) return side == Side::in;
     // Any second point of the line will do; one about as far off as the origin keeps the direction's digits.
     const double second[3] = {q.ray.origin[0] + 8 * q.ray.direction[0],
                               q.ray.origin[1] + 8 * q.ray.direction[1],
                               q.ray.origin[2] + 8 * q.ray.direction[2]};
-    return q.bvh.triangles->meets_line(triangle, q.ray.origin, second);
+    return q.bvh.triangles->meets_line(block.triangle[lane], q.ray.origin, second);
 }
 
-// Four triangles. True if a hit was taken.
-bool meet_block(Query& q, const TriangleBlock& block) {
-    const Four ox = Four::all(q.origin[q.x]), oy = Four::all(q.origin[q.y]), oz = Four::all(q.origin[q.z]);
-    const Four sx = Four::all(q.shear_x), sy = Four::all(q.shear_y);
-    const auto corner = [&](int v, int axis) { return Four::load(block.corner[v][axis]); };
-    const Four az = corner(0, q.z) - oz, bz = corner(1, q.z) - oz, cz = corner(2, q.z) - oz;
-    const Four ax = corner(0, q.x) - ox - sx * az, ay = corner(0, q.y) - oy - sy * az;
-    const Four bx = corner(1, q.x) - ox - sx * bz, by = corner(1, q.y) - oy - sy * bz;
-    const Four cx = corner(2, q.x) - ox - sx * cz, cy = corner(2, q.y) - oy - sy * cz;
-    const Four u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
-    const Four least = min(u, min(v, w)), most = max(u, max(v, w));
-    const Four s = max(max(max(abs(ax), abs(ay)), max(abs(bx), abs(by))), max(abs(cx), abs(cy)));
-    const Four depth = max(abs(az), max(abs(bz), abs(cz)));
-    const Four d = Four::all(4 * unit) * (s + depth + Four::all(q.half_origin));
-    const Four bound = Four::all(6) * d * (s + d);
-    const Four minus = Four::all(0) - bound;
+// B triangles. True if a hit was taken.
+template <int B>
+bool meet_block(Query& q, const TriangleBlock<B>& block) {
+    using Some = Lanes<B>;
+    const Some ox = Some::all(q.origin[q.x]), oy = Some::all(q.origin[q.y]), oz = Some::all(q.origin[q.z]);
+    const Some sx = Some::all(q.shear_x), sy = Some::all(q.shear_y);
+    const auto corner = [&](int v, int axis) { return Some::load(block.corner[v][axis]); };
+    const Some az = corner(0, q.z) - oz, bz = corner(1, q.z) - oz, cz = corner(2, q.z) - oz;
+    const Some ax = corner(0, q.x) - ox - sx * az, ay = corner(0, q.y) - oy - sy * az;
+    const Some bx = corner(1, q.x) - ox - sx * bz, by = corner(1, q.y) - oy - sy * bz;
+    const Some cx = corner(2, q.x) - ox - sx * cz, cy = corner(2, q.y) - oy - sy * cz;
+    const Some u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
+    const Some least = min(u, min(v, w)), most = max(u, max(v, w));
+    const Some s = max(max(max(abs(ax), abs(ay)), max(abs(bx), abs(by))), max(abs(cx), abs(cy)));
+    const Some d = Some::all(4 * unit) * (s + Some::all(q.reach));
+    const Some bound = Some::all(6) * d * (s + d);
+    const Some minus = Some::all(0) - bound;
     // Surely outside: an edge function surely below zero and another surely above.
-    unsigned open = ~(less_equal(least, minus) & less_equal(bound, most)) & 15u;
+    unsigned open = ~(less_equal(least, minus) & less_equal(bound, most)) & ((1u << B) - 1u);
     if (!open) return false;
     // Surely before or behind: t lies between those of the corners.
-    const Four scale = Four::all(q.scale), ta = az * scale, tb = bz * scale, tc = cz * scale;
-    open &= less_equal(min(ta, min(tb, tc)), Four::all(q.t_best + q.slack));
-    open &= less_equal(Four::all(q.t_min), max(ta, max(tb, tc)) * Four::all(widen) + Four::all(q.slack));
+    const Some scale = Some::all(q.scale), ta = az * scale, tb = bz * scale, tc = cz * scale;
+    open &= less_equal(min(ta, min(tb, tc)), Some::all(q.t_best + q.slack));
+    open &= less_equal(Some::all(q.t_min), max(ta, max(tb, tc)) * Some::all(widen) + Some::all(q.slack));
     if (!open) return false;
     const unsigned sure = less_equal(bound, least) | less_equal(most, minus);
     bool taken = false;
     for (; open; open &= open - 1) {
         const int lane = __builtin_ctz(open);
-        if ((sure >> lane & 1u) || decide_exactly(q, block.triangle[lane])) taken |= take(q, block, lane);
+        if ((sure >> lane & 1u) || decide(q, block, lane)) taken |= take(q, block, lane);
     }
     return taken;
 }
@@ -213,32 +251,47 @@ std::uint32_t enter_children(const WideNode<W>& node, unsigned met, const float*
     return (--top)->node;
 }
 
-template <int W, bool any>
+void fetch(const char* place) {
+    for (std::size_t line = 0; line < 4; ++line) __builtin_prefetch(place + line * line_size);
+}
+
+template <int W, int B, bool any>
 void traverse(Query& q) {
     using Wide = Lanes<W>;
-    const auto* nodes = static_cast<const WideNode<W>*>(q.bvh.nodes);
+    const char* const tree = q.bvh.tree;
     const Wide nx = Wide::all(q.near_origin[0]), ny = Wide::all(q.near_origin[1]),
                nz = Wide::all(q.near_origin[2]);
     const Wide fx = Wide::all(q.far_origin[0]), fy = Wide::all(q.far_origin[1]),
                fz = Wide::all(q.far_origin[2]);
     const Wide ix = Wide::all(q.inverse[0]), iy = Wide::all(q.inverse[1]), iz = Wide::all(q.inverse[2]);
-    const Wide wider = Wide::all(widen), from = Wide::all(q.t_min);
+    const Wide jx = Wide::all(q.far_inverse[0]), jy = Wide::all(q.far_inverse[1]),
+               jz = Wide::all(q.far_inverse[2]);
+    const Wide from = Wide::all(q.t_min);
     Waiting stack[bvh_max_depth * (W - 1) + W];
     Waiting* top = stack;
     std::uint32_t at = q.bvh.root;
     for (;;) {
         if (!(at & leaf_bit)) {
-            const WideNode<W>& node = nodes[at];
+            const auto& node = *reinterpret_cast<const WideNode<W>*>(tree + at * line_size);
             const Wide x0 = (Wide::load(node.bound[q.near_row[0]]) - nx) * ix,
                        y0 = (Wide::load(node.bound[q.near_row[1]]) - ny) * iy,
                        z0 = (Wide::load(node.bound[q.near_row[2]]) - nz) * iz;
-            const Wide x1 = (Wide::load(node.bound[q.far_row[0]]) - fx) * ix,
-                       y1 = (Wide::load(node.bound[q.far_row[1]]) - fy) * iy,
-                       z1 = (Wide::load(node.bound[q.far_row[2]]) - fz) * iz;
+            const Wide x1 = (Wide::load(node.bound[q.far_row[0]]) - fx) * jx,
+                       y1 = (Wide::load(node.bound[q.far_row[1]]) - fy) * jy,
+                       z1 = (Wide::load(node.bound[q.far_row[2]]) - fz) * jz;
             const Wide enter = max(max(x0, y0), max(z0, from));
-            const Wide leave = min(min(min(x1, y1), z1) * wider, Wide::all(q.t_best));
-            const unsigned met = less_equal(enter, leave);
+            const Wide leave = min(min(x1, y1), min(z1, Wide::all(q.t_best)));
+            unsigned met = less_equal(enter, leave);
             if (met) {
+                // What is met next is seldom at hand already.
+                for (unsigned others = met & (met - 1); others; others &= others - 1)
+                    fetch(tree + (node.child[__builtin_ctz(others)] & index_mask) * line_size);
+                if (any) { // no order: whatever blocks the ray will do
+                    at = node.child[__builtin_ctz(met)];
+                    for (met &= met - 1; met; met &= met - 1)
+                        *top++ = {node.child[__builtin_ctz(met)], q.t_min};
+                    continue;
+                }
                 alignas(64) float t[W];
                 enter.store(t);
                 at = enter_children<W>(node, met, t, top);
@@ -249,7 +302,9 @@ void traverse(Query& q) {
                 if (any) return;
                 q.found_t();
             }
-        } else if (meet_block(q, q.bvh.blocks[at & index_mask]) && any) {
+        } else if (meet_block(
+                       q, *reinterpret_cast<const TriangleBlock<B>*>(tree + (at & index_mask) * line_size)) &&
+                   any) {
             return;
         }
         do {
@@ -260,18 +315,18 @@ void traverse(Query& q) {
     }
 }
 
-template <int W>
+template <int W, int B>
 void closest(const BvhView& bvh, const KernelRay& ray, const KernelCalls& calls, KernelHit& hit) {
     Query query(bvh, ray, calls, hit);
-    traverse<W, false>(query);
+    traverse<W, B, false>(query);
 }
 
-template <int W>
+template <int W, int B>
 bool occluded(const BvhView& bvh, const KernelRay& ray, const KernelCalls& calls) {
     KernelHit hit;
     hit.t = ray.t_max;
     Query query(bvh, ray, calls, hit);
-    traverse<W, true>(query);
+    traverse<W, B, true>(query);
     return hit.primitive != no_primitive;
 }
 

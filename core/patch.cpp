@@ -41,10 +41,20 @@ MeshData tessellate(const BicubicPatch& patch) {
             mesh.triangles.push_back({at(row, column), at(row, column + 1), at(row + 1, column + 1)});
             mesh.triangles.push_back({at(row, column), at(row + 1, column + 1), at(row + 1, column)});
         }
-    // Where an edge of the patch has shrunk to a point its normal comes from the triangles around it.
+    // Where an edge of the patch has shrunk to a point its normal comes from the triangles around that point.
     const std::vector<Vec3f> around = area_weighted_normals(mesh.positions, mesh.triangles);
-    for (std::size_t i = 0; i < mesh.normals.size(); ++i)
-        if (mesh.normals[i] == Vec3f(0)) mesh.normals[i] = around[i];
+    for (int row = 0; row <= rows; ++row)
+        for (int column = 0; column <= columns; ++column) {
+            const std::uint32_t i = at(row, column);
+            if (mesh.normals[i] != Vec3f(0)) continue;
+            Vec3f sum(0);
+            const auto add = [&](std::uint32_t k) {
+                if (mesh.positions[k] == mesh.positions[i]) sum += around[k];
+            };
+            for (int k = 0; k <= columns; ++k) add(at(row, k));
+            for (int k = 0; k <= rows; ++k) add(at(k, column));
+            if (sum != Vec3f(0)) mesh.normals[i] = glm::normalize(sum);
+        }
     mesh.normal_triangles = mesh.triangles;
     mesh.uv_triangles = mesh.triangles;
     return mesh;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// bench_rays --mesh FILE [--csv FILE|-] [--rounds N] [--threads N]...
+// bench_rays --mesh FILE [--csv FILE|-] [--rounds N] [--threads N]... [--kernel NAME]...
 //
 // The mesh, seven units large in a box of 10 x 10 x 20, met by camera rays, two bounces and two sets of
 // shadow rays, by our kernels, Embree and CGAL's AABB tree in turn, so that whatever else the machine does
@@ -249,6 +249,7 @@ struct Options {
     std::string mesh, csv = "-";
     int rounds = 15;
     std::vector<int> threads;
+    std::vector<std::string> kernels; // beside Embree's; empty: all
 };
 
 int run(const Options& options) {
@@ -263,6 +264,11 @@ int run(const Options& options) {
         kernels.push_back(make_pnr(*kernel, chosen ? "pnr" : std::string("pnr-") + kernel->name));
     }
     kernels.push_back(make_cgal_tree());
+    std::erase_if(kernels, [&](const auto& kernel) {
+        const auto& wanted = options.kernels;
+        return !wanted.empty() && !kernel->name.starts_with("embree") &&
+               std::find(wanted.begin(), wanted.end(), kernel->name) == wanted.end();
+    });
 
     const LeakRays leak_rays = make_leak_rays(scene, mesh_only, 1000000);
     std::vector<std::size_t> leaks;
@@ -289,7 +295,7 @@ int run(const Options& options) {
                 static_cast<double>(kernels[i]->bytes()) / (static_cast<double>(scene.corners.size()) / 9);
         }
     }
-    const std::vector<RaySet> sets = make_rays(scene, *kernels[2]);
+    const std::vector<RaySet> sets = make_rays(scene, *kernels[0]);
     std::FILE* out = options.csv == "-" ? stdout : std::fopen(options.csv.c_str(), "w");
     if (!out) return 4;
     std::fprintf(out, "mesh,kernel,rays,threads,mrays_s,ratio_embree_robust,ratio_embree_default,build_s,"
@@ -334,12 +340,15 @@ int main(int argc, char** argv) {
             options.rounds = std::max(1, std::atoi(argv[++i]));
         else if (word == "--threads" && value)
             options.threads.push_back(std::max(1, std::atoi(argv[++i])));
+        else if (word == "--kernel" && value)
+            options.kernels.push_back(argv[++i]);
         else
             options.mesh.clear(), i = argc;
     }
     if (options.threads.empty()) options.threads = {1, 2};
     if (options.mesh.empty()) {
-        std::fprintf(stderr, "usage: bench_rays --mesh FILE [--csv FILE|-] [--rounds N] [--threads N]...\n");
+        std::fprintf(stderr, "usage: bench_rays --mesh FILE [--csv FILE|-] [--rounds N] [--threads N]... "
+                             "[--kernel NAME]...\n");
         return 2;
     }
     try {
