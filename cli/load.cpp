@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/load.h"
 
+#include "cli/report.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <iterator>
@@ -15,8 +18,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-LoadOptions load_options(const Options& options) {
+LoadOptions load_options(const Options& options, const AnimationFrame& frame) {
     LoadOptions load;
+    load.clock = frame.clock;
+    load.frame_number = frame.number;
+    load.initial_frame = frame.first;
+    load.final_frame = frame.last;
     load.library = options.library;
     if (const char* path = std::getenv("PNR_LIBRARY_PATH")) {
         const std::string folders(path);
@@ -58,8 +65,37 @@ void apply_quality(RenderSettings& render, Quality quality) {
 
 } // namespace
 
-LoadResult load_named_scene(const std::string& name, const Options& options) {
-    const LoadOptions load = load_options(options);
+std::vector<AnimationFrame> frames_of(const Options& options) {
+    if (!options.frames) {
+        AnimationFrame only;
+        only.clock = options.clock;
+        return {only};
+    }
+    const FrameRange& range = *options.frames;
+    std::vector<AnimationFrame> frames;
+    for (int number = range.first; number <= range.last; number += range.step) {
+        const double share = range.last > range.first
+                                 ? static_cast<double>(number - range.first) / (range.last - range.first)
+                                 : 0;
+        frames.push_back({number, range.first, range.last, share});
+    }
+    return frames;
+}
+
+fs::path numbered(const fs::path& file, int frame) {
+    std::string name = file.filename().string();
+    const std::size_t begin = name.find('#');
+    if (begin != std::string::npos) {
+        const std::size_t end = std::min(name.find_first_not_of('#', begin), name.size());
+        name.replace(begin, end - begin, fmt::format("{:0{}}", frame, end - begin));
+        return file.parent_path() / name;
+    }
+    return file.parent_path() /
+           fmt::format("{}{:04}{}", file.stem().string(), frame, file.extension().string());
+}
+
+LoadResult load_named_scene(const std::string& name, const Options& options, const AnimationFrame& frame) {
+    const LoadOptions load = load_options(options, frame);
     if (name.empty()) return load_scene_text(default_scene_text(), "default.pnr", load);
     if (name == "-") {
         std::string text(std::istreambuf_iterator<char>(std::cin), {});
@@ -67,6 +103,19 @@ LoadResult load_named_scene(const std::string& name, const Options& options) {
     }
     check_readable(name);
     return load_scene(name, load);
+}
+
+bool load_and_report(const Options& options, const AnimationFrame& frame, LoadResult& loaded) {
+    loaded = load_named_scene(scene_name(options), options, frame);
+    if (!loaded.debug_output.empty()) std::fputs(loaded.debug_output.c_str(), stderr);
+    print_diagnostics(loaded.diagnostics, loaded.sources);
+    if (may_render(loaded, options)) return true;
+    if (loaded.scene) print_error("warnings count as errors (--werror)");
+    return false;
+}
+
+std::string scene_name(const Options& options) {
+    return options.scenes.empty() ? "" : options.scenes.front();
 }
 
 bool may_render(const LoadResult& loaded, const Options& options) {

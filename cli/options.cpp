@@ -50,6 +50,19 @@ std::array<int, 2> to_pixel(const std::string& text, const std::string& option) 
     return {static_cast<int>((*numbers)[0]), static_cast<int>((*numbers)[1])};
 }
 
+FrameRange to_frames(const std::string& text) {
+    FrameRange range;
+    int used = 0, used_more = 0;
+    const char* words = text.c_str();
+    const bool two = std::sscanf(words, "%d-%d%n", &range.first, &range.last, &used) == 2;
+    const bool step =
+        two && words[used] == 'x' && std::sscanf(words + used, "x%d%n", &range.step, &used_more) == 1;
+    if (!two || words[used + (step ? used_more : 0)] != '\0' || range.first < 0 || range.last < range.first ||
+        range.last > 1'000'000 || range.step < 1)
+        throw UsageError(fmt::format("--frames {}: frames are said as FIRST-LAST or FIRST-LASTxSTEP", text));
+    return range;
+}
+
 std::vector<std::string> split(const std::string& text, char separator) {
     std::vector<std::string> parts;
     for (std::size_t begin = 0; begin <= text.size();) {
@@ -65,7 +78,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 // What CLI11 fills and still needs a look.
 struct Words {
-    std::string scene, size, crop, aov, at, to, help;
+    std::string scene, size, crop, frames, aov, at, to, help;
     std::vector<std::string> declares, outputs, library;
     bool no_prune = false;
 };
@@ -123,6 +136,10 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
     app.add_option("--crop", words.crop,
                    "Render this part alone, in pixels from the top left or in fractions")
         ->type_name("X0,Y0,X1,Y1");
+    app.add_option("--frames", words.frames,
+                   "Render these frames; the scene's `clock` goes from 0 to 1 over them")
+        ->type_name("A-B[xSTEP]");
+    app.add_option("--clock", options.clock)->group(""); // POV-Ray's +K
     app.add_option("--exposure", options.exposure, "Brighten or darken PNG pictures by stops")
         ->type_name("STOPS");
     add_choice<View>(app, "--view", options.view, {{"clip", View::clip}, {"shoulder", View::shoulder}},
@@ -158,7 +175,9 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
                "  pnr render pot.pnr -o pot.png -o pot.exr     two pictures of one rendering\n"
                "  pnr render pot.pnr -H 1024 --maps pot.maps   a larger picture, and what lies behind it\n"
                "  pnr render pot.pnr -D Turn=30 --stats -      with a declared number, statistics on "
-               "standard output");
+               "standard output\n"
+               "  pnr render turn.pnr --frames 1-48 -o turn.png   turn0001.png to turn0048.png, `clock` from "
+               "0 to 1");
 }
 
 void add_others(CLI::App& parent, Options& options, Words& words, std::optional<TextFormat>& format) {
@@ -214,6 +233,7 @@ void finish_options(Options& options, const Words& words) {
         if (!options.crop)
             throw UsageError(fmt::format("--crop {}: a crop is said as X0,Y0,X1,Y1", words.crop));
     }
+    if (!words.frames.empty()) options.frames = to_frames(words.frames);
     if (options.exposure && !(std::abs(*options.exposure) <= 100))
         throw UsageError("--exposure: a number of stops from -100 to 100 is expected");
     options.aovs = split(words.aov, ',');

@@ -23,6 +23,10 @@ enum class TextFormat { text, json };
 // above 1.
 using CropWord = std::array<double, 4>;
 
+struct FrameRange {
+    int first = 1, last = 1, step = 1;
+};
+
 struct Options {
     std::string command;                        // render, check, plan, pick
     std::vector<std::string> scenes;            // empty: the embedded default scene; "-": standard input
@@ -33,6 +37,8 @@ struct Options {
     std::vector<std::pair<std::string, std::string>> declares;
     std::vector<std::filesystem::path> library;
     std::optional<CropWord> crop;
+    std::optional<FrameRange> frames;
+    double clock = 0; // of a single picture
     std::optional<double> exposure;
     std::optional<View> view;
     std::optional<Quality> quality;

@@ -32,8 +32,9 @@ const std::vector<std::string>& pass_names() {
     return names;
 }
 
-Passes::Passes(ProgressMode mode)
-    : view_(std::make_unique<ProgressView>(mode)), wall_mark_(clock_seconds(CLOCK_MONOTONIC)) {
+Passes::Passes(ProgressMode mode, bool from_start)
+    : view_(std::make_unique<ProgressView>(mode)), wall_mark_(clock_seconds(CLOCK_MONOTONIC)),
+      cpu_mark_(from_start ? 0 : clock_seconds(CLOCK_PROCESS_CPUTIME_ID)) {
     for (const std::string& name : pass_names()) times_.push_back({name});
 }
 Passes::~Passes() = default;

@@ -26,8 +26,8 @@ class ProgressView; // passes.cpp
 
 class Passes {
 public:
-    // The clock starts with the process, so that loading the program counts for the first pass.
-    explicit Passes(ProgressMode mode);
+    // `from_start`: what the process has done so far, loading the program, counts for the first pass.
+    Passes(ProgressMode mode, bool from_start);
     ~Passes();
 
     // Which passes will run, for the time left; called once that is known.
@@ -42,7 +42,7 @@ public:
     }
 
     const std::vector<PassTime>& times() const { return times_; } // one entry a name, in pass_names' order
-    // A line on the terminal that does not break the bar.
+    // A line that does not break the bar; printed unless progress is off or JSON.
     void note(const std::string& line);
 
 private:

@@ -8,7 +8,8 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <algorithm>
+#include <cmath>
 
 namespace pnr {
 
@@ -81,20 +82,15 @@ std::string answer(const World& world, const PictureView& view, const Settings& 
 } // namespace
 
 int run_pick(const Options& options) {
-    LoadResult loaded = load_named_scene(options.scenes.empty() ? "" : options.scenes.front(), options);
-    print_diagnostics(loaded.diagnostics, loaded.sources);
-    if (!may_render(loaded, options)) return exit_scene;
-    try {
+    LoadResult loaded;
+    if (!load_and_report(options, {}, loaded)) return exit_scene;
+    return with_scene_errors(loaded.sources, [&] {
         const Settings settings = merge_settings(loaded.settings, options);
         const PictureSize size = picture_size(loaded.scene->camera, settings.render);
         const World world = build_world(*loaded.scene, settings);
-        const std::string text = answer(world, {world.camera, size.width, size.height}, settings, options);
-        std::fputs(text.c_str(), stdout);
+        print_answer(answer(world, {world.camera, size.width, size.height}, settings, options));
         return exit_done;
-    } catch (const SceneError& error) {
-        print_diagnostics({as_diagnostic(error, loaded.sources)}, loaded.sources);
-        return exit_scene;
-    }
+    });
 }
 
 } // namespace pnr

@@ -13,53 +13,23 @@ namespace pnr {
 
 namespace {
 
-// POV-Ray's switches, the longest first where one starts another [POV-Ray 3.7 reference, "Command-line and
-// INI-file options"]. `ours`: our option that takes the value; empty: the switch means nothing here and is
-// dropped.
+// POV-Ray's switches that say the same as one of ours, the longest first where one starts another
+// [POV-Ray 3.7 reference, "Command-line and INI-file options"].
 struct Switch {
-    const char* letters; // after + or -, upper case
+    const char* letters; // after +, upper case; the value follows at once
     const char* ours;
-    bool takes_value = false;
 };
-constexpr Switch switches[] = {
-    {"WT", "--threads", true},
-    {"UA", ""},
-    {"UV", ""},
-    {"UD", ""},
-    {"UL", ""},
-    {"UR", ""},
-    {"UO", ""},
-    {"UF", ""},
-    {"AM", "", true},
-    {"BP", "", true},
-    {"BS", "", true},
-    {"GA", "", true},
-    {"GD", "", true},
-    {"GF", "", true},
-    {"GI", "", true},
-    {"GR", "", true},
-    {"GS", "", true},
-    {"GW", "", true},
-    {"HI", "", true},
-    {"MB", "", true},
-    {"MV", "", true},
-    {"RP", "", true},
-    {"SP", "", true},
-    {"EP", "", true},
-    {"XM", ""},
-    {"W", "-W", true},
-    {"H", "-H", true},
-    {"O", "-o", true},
-    {"L", "-L", true},
-    {"J", "", true},
-    {"R", "", true},
-    {"F", "", true},
-    {"B", "", true},
-    {"D", "", true},
-    {"C", ""},
-    {"P", ""},
-    {"V", ""},
-    {"X", ""},
+constexpr Switch switches[] = {{"WT", "--threads"}, {"W", "-W"}, {"H", "-H"},     {"O", "-o"},
+                               {"L", "-L"},         {"I", ""},   {"K", "--clock"}};
+// Those that mean nothing here, with or without a value: display, pauses, messages, buffers, alpha, file
+// types, jitter.
+constexpr const char* meaningless[] = {"UA", "UD", "UL", "UO", "UR", "UV", "AM", "BP", "BS", "GA", "GD",
+                                       "GF", "GI", "GP", "GR", "GS", "GW", "HI", "MB", "MV", "RP", "SP",
+                                       "EP", "XM", "B",  "C",  "D",  "F",  "J",  "P",  "R",  "V",  "X"};
+
+// First and last frame, said apart (+KFI, +KFF).
+struct Frames {
+    std::string first = "1", last;
 };
 
 // Name=Value, in lower case, as in .ini files.
@@ -95,28 +65,33 @@ std::string quality_of(const std::string& value) {
 }
 
 // One argument that starts with '+'.
-void translate_plus(const std::string& argument, std::vector<std::string>& ours) {
-    const char letter = static_cast<char>(std::toupper(static_cast<unsigned char>(argument[1])));
-    if (letter == 'I') {
-        ours.push_back(argument.substr(2));
-        return;
+void translate_plus(const std::string& argument, Frames& frames, std::vector<std::string>& ours) {
+    const auto value_after = [&](const char* letters) {
+        return argument.substr(1 + std::string(letters).size());
+    };
+    if (starts_with_letters(argument, "KFI")) {
+        frames.first = value_after("KFI");
+    } else if (starts_with_letters(argument, "KFF")) {
+        frames.last = value_after("KFF");
+    } else if (starts_with_letters(argument, "Q")) {
+        ours.insert(ours.end(), {"--quality", quality_of(value_after("Q"))});
+    } else if (starts_with_letters(argument, "A") && !starts_with_letters(argument, "AM")) {
+        const std::string threshold = value_after("A");
+        ours.insert(ours.end(), {"--antialias", threshold.empty() ? "0.3" : threshold});
+    } else {
+        for (const Switch& known : switches) {
+            if (!starts_with_letters(argument, known.letters)) continue;
+            if (*known.ours != '\0') ours.emplace_back(known.ours);
+            ours.push_back(value_after(known.letters));
+            return;
+        }
+        const bool known =
+            std::any_of(std::begin(meaningless), std::end(meaningless),
+                        [&](const char* letters) { return starts_with_letters(argument, letters); });
+        if (!known)
+            throw UsageError(
+                fmt::format("POV-Ray's option `{}` is not among those that pnr understands", argument));
     }
-    if (letter == 'Q') {
-        ours.insert(ours.end(), {"--quality", quality_of(argument.substr(2))});
-        return;
-    }
-    if (letter == 'A' && !starts_with_letters(argument, "AM")) {
-        ours.insert(ours.end(), {"--antialias", argument.size() > 2 ? argument.substr(2) : "0.3"});
-        return;
-    }
-    for (const Switch& known : switches) {
-        if (!starts_with_letters(argument, known.letters)) continue;
-        const std::string value = argument.substr(1 + std::string(known.letters).size());
-        if (!known.takes_value && !value.empty()) continue;
-        if (*known.ours != '\0') ours.insert(ours.end(), {known.ours, value});
-        return;
-    }
-    throw UsageError(fmt::format("POV-Ray's option `{}` is not among those that pnr understands", argument));
 }
 
 // Name=Value; false if it is no such setting.
@@ -135,21 +110,22 @@ bool translate_setting(const std::string& argument, std::vector<std::string>& ou
     return false;
 }
 
-// -A turns antialiasing off; the other switches that POV-Ray turns off with a minus mean nothing here.
+// -A turns antialiasing off; of POV-Ray's other switches with a minus, those that mean nothing are dropped.
 bool translate_minus(const std::string& argument, std::vector<std::string>& ours) {
-    static const char* const meaningless[] = {"-B", "-C",  "-F",  "-J",  "-P",  "-R", "-V",
-                                              "-X", "-GA", "-UA", "-UD", "-UR", "-UV"};
     if (argument == "-A") {
         ours.insert(ours.end(), {"--antialias", "0"});
         return true;
     }
-    return std::find(std::begin(meaningless), std::end(meaningless), argument) != std::end(meaningless);
+    return argument.size() > 1 && argument[0] == '-' && argument != "-D" &&
+           std::find(std::begin(meaningless), std::end(meaningless), argument.substr(1)) !=
+               std::end(meaningless);
 }
 
 } // namespace
 
 std::vector<std::string> from_povray_options(std::vector<std::string> arguments) {
     std::vector<std::string> ours;
+    Frames frames;
     if (!arguments.empty() && arguments[0].size() > 1 && arguments[0][0] == '+') ours.emplace_back("render");
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const std::string& argument = arguments[i];
@@ -161,13 +137,14 @@ std::vector<std::string> from_povray_options(std::vector<std::string> arguments)
             ours.push_back(arguments[++i]);
         } else if (argument.size() > 1 && argument[0] == '+' &&
                    std::isalpha(static_cast<unsigned char>(argument[1]))) {
-            translate_plus(argument, ours);
+            translate_plus(argument, frames, ours);
         } else if (translate_minus(argument, ours)) {
             continue;
         } else if (!translate_setting(argument, ours)) {
             ours.push_back(argument);
         }
     }
+    if (!frames.last.empty()) ours.insert(ours.end(), {"--frames", frames.first + "-" + frames.last});
     return ours;
 }
 

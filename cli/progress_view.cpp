@@ -76,6 +76,7 @@ void ProgressView::end(const std::string& pass, double wall_s) {
 }
 
 void ProgressView::note(const std::string& line) {
+    if (form_ != Form::bar && form_ != Form::lines) return;
     const std::lock_guard lock(mutex_);
     clear_bar();
     print(line + "\n");

@@ -2,11 +2,13 @@
 #include "cli/report.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <unistd.h>
 
 namespace pnr {
@@ -60,6 +62,18 @@ Diagnostic as_diagnostic(const SceneError& error, Sources& sources) {
     if (end == begin && end < source.text.size()) ++end;
     diagnostic.span = {index, begin, end};
     return diagnostic;
+}
+
+void print_answer(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+        throw FileError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+}
+
+std::string join_json_arrays(const std::vector<std::string>& arrays) {
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    for (const std::string& array : arrays)
+        for (const auto& element : nlohmann::ordered_json::parse(array)) all.push_back(element);
+    return all.dump(2) + "\n";
 }
 
 std::vector<std::string> warning_texts(const std::vector<Diagnostic>& diagnostics, const Sources& sources) {

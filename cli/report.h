@@ -31,6 +31,22 @@ void print_diagnostics(const std::vector<Diagnostic>& diagnostics, const Sources
 // if the text is still known.
 Diagnostic as_diagnostic(const SceneError& error, Sources& sources);
 
+// What a command was asked for, on standard output. Throws FileError.
+void print_answer(const std::string& text);
+// Several JSON arrays as one, on lines of its own.
+std::string join_json_arrays(const std::vector<std::string>& arrays);
+
+// Runs work that may find an error in the scene after reading it; then prints that and returns exit_scene.
+template <class Work>
+int with_scene_errors(Sources& sources, Work work) {
+    try {
+        return work();
+    } catch (const SceneError& error) {
+        print_diagnostics({as_diagnostic(error, sources)}, sources);
+        return exit_scene;
+    }
+}
+
 // `path:line:col: text` of the warnings, for the statistics.
 std::vector<std::string> warning_texts(const std::vector<Diagnostic>& diagnostics, const Sources& sources);
 

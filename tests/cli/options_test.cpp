@@ -3,7 +3,7 @@
 
 #include "cli/options.h"
 
-#include "cli/povray_options.h"
+#include "cli/load.h"
 
 namespace pnr {
 namespace {
@@ -72,6 +72,26 @@ TEST(Options, PovRaysWayMeansRender) {
     EXPECT_EQ(o.threads, 2);
     EXPECT_EQ(o.library, std::vector<std::filesystem::path>{"inc"});
     EXPECT_EQ(parse({"render", "a.pov", "-A"}).antialias, 0);
+}
+
+TEST(Options, FramesAreARangeWithAStep) {
+    const Options o = parse({"render", "a.pnr", "--frames", "3-21x6"});
+    ASSERT_TRUE(o.frames);
+    EXPECT_EQ(o.frames->first, 3);
+    EXPECT_EQ(o.frames->last, 21);
+    EXPECT_EQ(o.frames->step, 6);
+    const std::vector<AnimationFrame> frames = frames_of(o);
+    ASSERT_EQ(frames.size(), 4u);
+    EXPECT_EQ(frames[1].number, 9);
+    EXPECT_NEAR(frames[1].clock, 1 / 3.0, 1e-15);
+    EXPECT_EQ(frames[3].clock, 1);
+    EXPECT_EQ(parse({"+Ia.pov", "+KFI2", "+KFF4"}).frames->last, 4);
+    EXPECT_EQ(parse({"+Ia.pov", "+K0.5"}).clock, 0.5);
+    for (const char* wrong : {"3", "3-", "5-3", "1-9x", "1-9x0", "1-9y2", "a-b"})
+        EXPECT_NE(refusal({"render", "a.pnr", "--frames", wrong}), "") << wrong;
+    EXPECT_EQ(numbered("out/pot.png", 7), "out/pot0007.png");
+    EXPECT_EQ(numbered("pot-##.exr", 123), "pot-123.exr");
+    EXPECT_EQ(numbered("#.png", 5), "5.png");
 }
 
 TEST(Options, RefusalsSayWhatWasMeant) {

@@ -83,6 +83,8 @@ TEST(Program, ErrorsInAScenePointAtTheirPlace) {
     const Ran json = run_pnr(folder, {"check", "broken.pnr", "--format", "json"});
     EXPECT_EQ(json.code, 3);
     EXPECT_TRUE(nlohmann::json::accept(json.out)) << json.out;
+    const Ran both = run_pnr(folder, {"check", "broken.pnr", "broken.pnr", "--format", "json"});
+    EXPECT_EQ(nlohmann::json::parse(both.out).size(), 2 * nlohmann::json::parse(json.out).size());
 }
 
 TEST(Program, PicturesHaveTheSizeOfTheContract) {
@@ -218,6 +220,26 @@ TEST(Program, ASignalSavesWhatThereIsAndIsTold) {
     EXPECT_EQ(read_image(folder / "box.png").width, 1500);
     const Ran interrupted = run_pnr_and_signal(folder, {"render", "box.pnr", "-W", "1500"}, SIGINT, "parse");
     EXPECT_EQ(interrupted.code, 130);
+}
+
+TEST(Program, FramesMoveTheClockAndGoOnWhereTheyStopped) {
+    const TemporaryFolder folder;
+    folder.write("move.pnr",
+                 std::string(plain_scene) + "sphere { <4 * clock - 2, 0, -1.5>, 0.4 pigment { rgb z } }\n");
+    const Words words{"render", "move.pnr",       "-W", "24", "--frames", "1-3", "--stats",
+                      "s.json", "--skip-existing"};
+    ASSERT_EQ(run_pnr(folder, words).code, 0);
+    EXPECT_EQ(folder.names(), (Words{"move.pnr", "move0001.png", "move0002.png", "move0003.png", "s0001.json",
+                                     "s0002.json", "s0003.json"}));
+    ASSERT_EQ(run_pnr(folder, {"render", "move.pnr", "-W", "24", "-o", "still.png"}).code, 0);
+    EXPECT_EQ(folder.read("still.png"), folder.read("move0001.png")); // clock 0
+    EXPECT_NE(folder.read("move0001.png"), folder.read("move0002.png"));
+    const std::string second = folder.read("move0002.png");
+    folder.write("move0001.png", "kept");
+    std::filesystem::remove(folder / "move0002.png");
+    ASSERT_EQ(run_pnr(folder, words).code, 0);
+    EXPECT_EQ(folder.read("move0001.png"), "kept");
+    EXPECT_EQ(folder.read("move0002.png"), second);
 }
 
 TEST(Program, PickNamesTheObjectAndGivesASeed) {

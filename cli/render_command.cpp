@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `pnr render`: one picture, or the frames of an animation one after the other.
+#include "cli/commands.h"
+
+#include "cli/interrupt.h"
+#include "cli/load.h"
+#include "cli/map_files.h"
+#include "cli/parts.h"
+#include "cli/picture_files.h"
+#include "cli/pipeline.h"
+#include "cli/report.h"
+#include "cli/stats.h"
+#include "core/atomic_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace pnr {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// What one frame writes; empty paths: not asked for.
+struct Files {
+    std::vector<fs::path> pictures;
+    fs::path maps, stats;
+};
+
+Files files_of(const Options& options, const AnimationFrame& frame) {
+    Files files{options.outputs, options.maps, options.stats};
+    if (files.pictures.empty()) files.pictures = {scene_stem(scene_name(options)) + ".png"};
+    if (!options.frames) return files;
+    for (fs::path& picture : files.pictures) picture = numbered(picture, frame.number);
+    if (!files.maps.empty()) files.maps = numbered(files.maps, frame.number);
+    if (!files.stats.empty() && files.stats != "-") files.stats = numbered(files.stats, frame.number);
+    return files;
+}
+
+void check_aovs(const std::vector<std::string>& asked) {
+    const std::vector<std::string>& known = aov_names();
+    for (const std::string& name : asked) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        const std::string_view near = nearest_word(name, {known.begin(), known.end()});
+        throw UsageError(fmt::format("--aov: there is no part `{}`{}", name,
+                                     near.empty() ? "" : fmt::format("; did you mean `{}`?", near)));
+    }
+}
+
+bool exists(const fs::path& file) { return file != "-" && fs::exists(file); }
+
+std::vector<std::string> all_warnings(const LoadResult& loaded, const Rendering& r) {
+    std::vector<std::string> warnings = warning_texts(loaded.diagnostics, loaded.sources);
+    warnings.insert(warnings.end(), r.world.notes.begin(), r.world.notes.end());
+    for (const FieldReport& report : r.paint.fields.reports)
+        for (const std::string& note : report.notes)
+            warnings.push_back(fmt::format("object {}: {}", report.object, note));
+    return warnings;
+}
+
+void write_results(const LoadResult& loaded, const Rendering& r, const Options& options, const Files& files,
+                   Passes& passes) {
+    passes.run("write", [&](const Progress&) {
+        for (const fs::path& picture : files.pictures)
+            write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
+        if (!files.maps.empty()) write_maps(r, files.maps);
+    });
+    if (files.stats.empty()) return;
+    const std::string text = stats_json(*loaded.scene, r, passes.times(), all_warnings(loaded, r));
+    if (files.stats == "-")
+        print_answer(text);
+    else
+        write_file_atomically(files.stats, text);
+}
+
+void report_faults(const SampleFaults& faults) {
+    if (faults.nan + faults.inf + faults.negative == 0) return;
+    print_warning(fmt::format(
+        "samples that no picture can show were left out: {} not a number, {} infinite, {} negative",
+        faults.nan, faults.inf, faults.negative));
+}
+
+bool wants_light_parts(const Options& options) {
+    return std::any_of(options.aovs.begin(), options.aovs.end(), [](const std::string& name) {
+        return name == "direct" || name == "indirect" || name == "caustic" || name == "specular" ||
+               name == "photon.density";
+    });
+}
+
+int render_frame(const Options& options, const AnimationFrame& frame) {
+    const Files files = files_of(options, frame);
+    const auto& pictures = files.pictures;
+    for (const fs::path& picture : pictures) check_output(picture);
+    if (options.skip_existing && std::all_of(pictures.begin(), pictures.end(), exists)) return exit_done;
+    if (options.no_overwrite && std::any_of(pictures.begin(), pictures.end(), exists))
+        throw FileError("a picture of that name exists already (--no-overwrite)");
+
+    Passes passes(options.progress, frame.number == frame.first || !options.frames);
+    if (options.frames)
+        passes.note(fmt::format("frame {} of {} to {}", frame.number, frame.first, frame.last));
+    LoadResult loaded;
+    if (!passes.run("parse", [&](const Progress&) { return load_and_report(options, frame, loaded); }))
+        return exit_scene;
+    return with_scene_errors(loaded.sources, [&] {
+        const Wishes wishes{options.crop, !files.maps.empty(), wants_light_parts(options),
+                            options.save_photons, options.load_photons};
+        const Rendering r =
+            render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, passes);
+        report_faults(r.faults);
+        write_results(loaded, r, options, files, passes);
+        return r.stopped ? exit_signal + stop_signal() : exit_done;
+    });
+}
+
+} // namespace
+
+int run_render(const Options& options) {
+    check_aovs(options.aovs);
+    const ThreadLimit limit(options.threads);
+    for (const AnimationFrame& frame : frames_of(options)) {
+        const int code = render_frame(options, frame);
+        if (code != exit_done) return code;
+        if (stop_signal() != 0) return exit_signal + stop_signal(); // between two frames
+    }
+    return exit_done;
+}
+
+} // namespace pnr
