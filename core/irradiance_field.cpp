@@ -323,17 +323,41 @@ const Record& record_of(const IrradianceField& field, Level& level, std::uint32_
     return level.records[index];
 }
 
-// Irradiance that a record foretells for another point and normal.
-Color extrapolate(const Record& record, const Site& site, Vec3f position, Vec3f normal) {
-    const Vec3f apart = position - site.position, turn = glm::cross(site.normal, normal);
-    Color result = record.irradiance;
-    for (int i = 0; i < 3; ++i) {
-        const auto c = static_cast<std::size_t>(i);
-        const float change = glm::dot(record.moved[c], apart) + glm::dot(record.turned[c], turn);
-        result[i] = std::clamp(result[i] + change, 0.25f * result[i], 2.5f * result[i]);
+// Weighted sums over records about a point. To each record's value half of its own gradient and half of the
+// mean gradient is added: the trapezoid rule along the way from the record to the point. A record's own
+// gradient alone would darken points that lie low among their neighbours, on every strongly curved surface.
+struct Blend {
+    float weight = 0;
+    Color value{0}, foretold{0};
+    std::array<Vec3f, 3> moved{}, turned{};
+    Vec3f apart{0}, turn{0};
+
+    void add(const Record& record, const Site& site, Vec3f position, Vec3f normal, float w) {
+        const Vec3f d = position - site.position, t = glm::cross(site.normal, normal);
+        weight += w;
+        value += w * record.irradiance;
+        apart += w * d;
+        turn += w * t;
+        for (int i = 0; i < 3; ++i) {
+            const auto c = static_cast<std::size_t>(i);
+            foretold[i] += w * (glm::dot(record.moved[c], d) + glm::dot(record.turned[c], t));
+            moved[c] += w * record.moved[c];
+            turned[c] += w * record.turned[c];
+        }
     }
-    return result;
-}
+
+    Color irradiance() const {
+        Color result = value / weight;
+        for (int i = 0; i < 3; ++i) {
+            const auto c = static_cast<std::size_t>(i);
+            const float mean_slope =
+                (glm::dot(moved[c], apart) + glm::dot(turned[c], turn)) / (weight * weight);
+            const float change = 0.5f * (foretold[i] / weight + mean_slope);
+            result[i] = std::clamp(result[i] + change, 0.25f * result[i], 2.5f * result[i]);
+        }
+        return result;
+    }
+};
 
 } // namespace
 
@@ -359,14 +383,13 @@ std::shared_ptr<const IrradianceField> make_irradiance_field(const World& world,
 FieldIrradiance field_irradiance(const IrradianceField& field, const World& world, const PhotonMap& map,
                                  Vec3 position, Vec3 normal, std::vector<Neighbour>& scratch) {
     const Vec3f p(position), n(normal);
-    Color sum{0};
-    float weights = 0;
-    for (std::size_t l = 0; l < field.levels.size() && weights < enough; ++l) {
+    Blend blend;
+    for (std::size_t l = 0; l < field.levels.size() && blend.weight < enough; ++l) {
         Level& level = field.levels[l];
         const bool last = l + 1 == field.levels.size();
         const auto reach = static_cast<float>(reach_in_spacings) * level.spacing;
         // What the coarser levels lack, so that a level fades in where they cease to be enough.
-        const float share = 1 - weights / enough;
+        const float share = 1 - blend.weight / enough;
         find_within(level.tree, p, reach, scratch);
         for (const Neighbour& near : scratch) {
             const Site& site = level.sites[near.index];
@@ -379,13 +402,11 @@ FieldIrradiance field_irradiance(const IrradianceField& field, const World& worl
             const float own = std::min(reach, last ? std::max(record.reach, level.spacing) : record.reach);
             if (!(distance < own)) continue;
             const float fall = 1 - distance / own, turn = (aligned - least_aligned) / (1 - least_aligned);
-            const float weight = share * fall * fall * turn;
-            sum += weight * extrapolate(record, site, p, n);
-            weights += weight;
+            blend.add(record, site, p, n, share * fall * fall * turn);
         }
     }
-    if (!(weights > 0)) return {};
-    return {sum / weights, std::min(1.0f, weights / (0.1f * enough))};
+    if (!(blend.weight > 0)) return {};
+    return {blend.irradiance(), std::min(1.0f, blend.weight / (0.1f * enough))};
 }
 
 std::int64_t record_count(const IrradianceField& field) { return field.records; }

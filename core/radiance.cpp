@@ -175,8 +175,11 @@ GatherSettings caustic_gather(const PhotonMap& map, const GatherSettings& settin
     GatherSettings caustic = settings;
     caustic.direct = caustic.indirect = false;
     caustic.caustic = true;
-    caustic.least = 0; // where few fall it is dark, not blurred
-    caustic.radius = std::min(settings.radius, map.caustic_radius);
+    caustic.least = 0;
+    // Where they lie close the k-th ends the search; where few stray ones fall a narrow disc would show each
+    // as a spot.
+    caustic.radius = std::max(2 * settings.radius, map.caustic_radius);
+    caustic.count = std::max(2, settings.count / 2);
     return caustic;
 }
 

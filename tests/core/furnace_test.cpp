@@ -49,16 +49,18 @@ double mean_over_wall(const World& world, int points, const Estimate& estimate) 
 
 TEST(Furnace, PhotonsAloneGiveTheWallsRadianceWithEachKernel) {
     const Furnace& f = shared_furnace();
-    for (const GatherKernel kernel : {GatherKernel::constant, GatherKernel::epanechnikov, GatherKernel::cone,
-                                      GatherKernel::gaussian}) {
+    for (const GatherKernel kernel :
+         {GatherKernel::constant, GatherKernel::epanechnikov, GatherKernel::cone, GatherKernel::gaussian}) {
         // Both ends of a search: by the k-th photon, and by the cap.
         for (const auto& [count, radius] : {std::pair{50, 10.f}, std::pair{100000, 0.4f}}) {
             GatherSettings settings{count, radius, kernel, true, true, true, 0};
             std::vector<Neighbour> scratch;
-            const double found = mean_over_wall(f.world, 4000, [&](const Hit& hit, const Bsdf& bsdf, Vec3 out, Rng&) {
-                return gather(f.world, f.map, settings, hit.position, bsdf, out, scratch);
-            });
-            EXPECT_NEAR(found / f.expected, 1, 0.01) << "kernel " << static_cast<int>(kernel) << " k " << count;
+            const double found =
+                mean_over_wall(f.world, 4000, [&](const Hit& hit, const Bsdf& bsdf, Vec3 out, Rng&) {
+                    return gather(f.world, f.map, settings, hit.position, bsdf, out, scratch);
+                });
+            EXPECT_NEAR(found / f.expected, 1, 0.01)
+                << "kernel " << static_cast<int>(kernel) << " k " << count;
         }
     }
 }
@@ -68,10 +70,11 @@ TEST(Furnace, DirectLightAndPhotonsGiveTheWallsRadiance) {
     GatherSettings settings = default_gather(f.world, f.map, f.settings.photons);
     settings.direct = false;
     std::vector<Neighbour> scratch;
-    const double found = mean_over_wall(f.world, 4000, [&](const Hit& hit, const Bsdf& bsdf, Vec3 out, Rng& rng) {
-        return direct_light(f.world, hit, bsdf, out, 4, rng) +
-               gather(f.world, f.map, settings, hit.position, bsdf, out, scratch);
-    });
+    const double found =
+        mean_over_wall(f.world, 4000, [&](const Hit& hit, const Bsdf& bsdf, Vec3 out, Rng& rng) {
+            return direct_light(f.world, hit, bsdf, out, 4, rng) +
+                   gather(f.world, f.map, settings, hit.position, bsdf, out, scratch);
+        });
     EXPECT_NEAR(found / f.expected, 1, 0.01);
 }
 

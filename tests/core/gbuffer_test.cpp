@@ -22,7 +22,8 @@ Picture see(const Scene& scene, const RenderSettings& settings = {}, PixelRect w
     return p;
 }
 
-// A mirror wall at z = 4 that faces the camera at the origin, a painted ball beside the camera's axis behind it.
+// A mirror wall at z = 4 that faces the camera at the origin, a painted ball beside the camera's axis behind
+// it.
 Scene mirror_scene() {
     Scene scene;
     scene.objects.push_back(test::mirror(Box{{-5, -5, 4}, {5, 5, 5}}, 0.8f));
@@ -67,7 +68,8 @@ TEST(GBuffer, AMirrorShowsWhatStandsBehindTheCamera) {
 
 TEST(GBuffer, AWeakMirrorIsSeenItself) {
     Scene scene = mirror_scene();
-    scene.objects[0].texture->finish.reflection.min = scene.objects[0].texture->finish.reflection.max = Color{0.4f};
+    scene.objects[0].texture->finish.reflection.min = scene.objects[0].texture->finish.reflection.max =
+        Color{0.4f};
     const Picture p = see(scene);
     EXPECT_EQ(p.gbuffer.seen.at(size / 2, size / 2).object, 1u);
     EXPECT_EQ(p.gbuffer.seen.at(size / 2, size / 2).via, 0u);
@@ -86,7 +88,8 @@ TEST(GBuffer, GlassIsSeenThrough) {
     EXPECT_NEAR(s.z_specular, 6, 0.01);
 }
 
-// The footprint against the difference of the neighbours' own points, on a plane seen directly and in a mirror.
+// The footprint against the difference of the neighbours' own points, on a plane seen directly and in a
+// mirror.
 TEST(GBuffer, FootprintsAreTheStepToTheNextPixel) {
     Scene direct;
     direct.objects.push_back(test::matt(Plane{glm::normalize(Vec3{0.3, 1, -0.5}), -4}, Color{0.5f}));
@@ -98,8 +101,10 @@ TEST(GBuffer, FootprintsAreTheStepToTheNextPixel) {
         const int m = size / 2;
         const Seen& here = p.gbuffer.seen.at(m, m);
         ASSERT_GT(here.z, 0);
-        const Vec3f right = (p.gbuffer.seen.at(m + 1, m).position - p.gbuffer.seen.at(m - 1, m).position) / 2.f;
-        const Vec3f down = (p.gbuffer.seen.at(m, m + 1).position - p.gbuffer.seen.at(m, m - 1).position) / 2.f;
+        const Vec3f right =
+            (p.gbuffer.seen.at(m + 1, m).position - p.gbuffer.seen.at(m - 1, m).position) / 2.f;
+        const Vec3f down =
+            (p.gbuffer.seen.at(m, m + 1).position - p.gbuffer.seen.at(m, m - 1).position) / 2.f;
         EXPECT_LT(glm::length(here.dpdx - right), 0.01f * glm::length(right));
         EXPECT_LT(glm::length(here.dpdy - down), 0.01f * glm::length(down));
     }
@@ -160,7 +165,8 @@ TEST(PixelSample, PowersOfTwoAreStratified) {
             for (int i = 0; i < n; ++i) {
                 const Vec2 p = pixel_sample(1, pixel, 3, i) - Vec2(pixel, 3);
                 ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
-                hit[static_cast<std::size_t>(static_cast<int>(p.x * side) * side + static_cast<int>(p.y * side))] = true;
+                hit[static_cast<std::size_t>(static_cast<int>(p.x * side) * side +
+                                             static_cast<int>(p.y * side))] = true;
             }
             EXPECT_EQ(std::count(hit.begin(), hit.end(), true), n);
         }

@@ -41,7 +41,8 @@ inline Object glass(Shape shape, double ior = 1.5) {
     return object;
 }
 
-inline LightSource emitter(EmitterShape shape, Vec3 position, double size, double radiance, Vec3 axis = {0, -1, 0}) {
+inline LightSource emitter(EmitterShape shape, Vec3 position, double size, double radiance,
+                           Vec3 axis = {0, -1, 0}) {
     LightSource light;
     light.position = position;
     light.emitter = Emitter{};
@@ -92,16 +93,17 @@ inline double furnace_radiance(double wall_radius, double emitter_radius, double
     return albedo * radiance * q / (1 - albedo * (1 - q));
 }
 
-// A box 10 x 10 x 20 without its front wall, a lamp of 2 x 2 under its ceiling (radiance 40), one red and one green wall.
+// A box 10 x 10 x 20 without its front wall, a lamp of 2 x 2 under its ceiling (radiance 40), one red and one
+// green wall.
 inline Scene paper_box() {
     Scene scene;
     const Color white{0.75f}, red{0.75f, 0.1f, 0.1f}, green{0.1f, 0.75f, 0.1f};
     const auto wall = [&](Vec3 low, Vec3 high, Color c) { scene.objects.push_back(matt(Box{low, high}, c)); };
-    wall({-5.1, -0.1, 0}, {5.1, 0, 20}, white);     // floor
-    wall({-5.1, 10, 0}, {5.1, 10.1, 20}, white);    // ceiling
-    wall({-5.1, 0, 20}, {5.1, 10, 20.1}, white);    // back
-    wall({-5.1, 0, 0}, {-5, 10, 20}, red);          // left
-    wall({5, 0, 0}, {5.1, 10, 20}, green);          // right
+    wall({-5.1, -0.1, 0}, {5.1, 0, 20}, white);  // floor
+    wall({-5.1, 10, 0}, {5.1, 10.1, 20}, white); // ceiling
+    wall({-5.1, 0, 20}, {5.1, 10, 20.1}, white); // back
+    wall({-5.1, 0, 0}, {-5, 10, 20}, red);       // left
+    wall({5, 0, 0}, {5.1, 10, 20}, green);       // right
     scene.lights.push_back(ceiling_lamp({0, 9.9, 14}, 1, 1, 40));
     scene.camera = look({0, 5, -13}, {0, 5, 10}, 0.75);
     return scene;

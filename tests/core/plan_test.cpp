@@ -22,7 +22,8 @@ TEST(Plan, ARaytracedSceneNeedsNeitherPhotonsNorPaint) {
     World world;
     world.objects.resize(1);
     const Plan plan = make_plan(world, Settings{}, false);
-    EXPECT_FALSE(plan.photons || plan.kdtree || plan.normals || plan.paint || plan.rbf || plan.ilic || plan.caustic_map);
+    EXPECT_FALSE(plan.photons || plan.kdtree || plan.normals || plan.paint || plan.rbf || plan.ilic ||
+                 plan.caustic_map);
     EXPECT_TRUE(plan.render_rays);
     EXPECT_EQ(plan.used, std::vector<std::string>{"rendering pass"});
     EXPECT_EQ(plan.left_out.size(), 7u);

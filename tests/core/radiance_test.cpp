@@ -57,7 +57,8 @@ TEST(DirectLight, PointLightLikePovRay) { // irradiance pi c cos at any distance
     EXPECT_NEAR(floor_irradiance(light, {0, 0, 0}, 1) / (pi * 0.5 * 3 / 5), 1, 1e-5);
 }
 
-// ---- gathers ------------------------------------------------------------------------------------------------------
+// ---- gathers
+// ------------------------------------------------------------------------------------------------------
 
 Bsdf white_floor() {
     Bsdf bsdf;
@@ -72,8 +73,8 @@ PhotonMap rain(int count, std::uint64_t seed, Vec3f direction = {0, -1, 0}) {
     Rng rng = make_rng(seed, Pass::test, 0);
     for (int i = 0; i < count; ++i) {
         const Vec2 u = rng.uniform2();
-        map.photons.push_back({Vec3f(u.x * 10, 0, u.y * 10), direction, Color{1},
-                               photon_tag(1, false, PhotonPath::indirect)});
+        map.photons.push_back(
+            {Vec3f(u.x * 10, 0, u.y * 10), direction, Color{1}, photon_tag(1, false, PhotonPath::indirect)});
     }
     std::vector<Vec3f> points;
     for (const Photon& p : map.photons) points.push_back(p.position);
@@ -83,11 +84,11 @@ PhotonMap rain(int count, std::uint64_t seed, Vec3f direction = {0, -1, 0}) {
 }
 
 TEST(Gather, EveryKernelFindsTheDensityOfEvenPhotonsAlsoFromAFew) {
-    // 100 photons a unit area and 1 W each: irradiance 100, radiance of a white floor 100 / pi. A naive estimate from
-    // k = 6 would be 20 % too bright.
+    // 100 photons a unit area and 1 W each: irradiance 100, radiance of a white floor 100 / pi. A naive
+    // estimate from k = 6 would be 20 % too bright.
     const World world;
-    for (const GatherKernel kernel : {GatherKernel::constant, GatherKernel::epanechnikov, GatherKernel::cone,
-                                      GatherKernel::gaussian}) {
+    for (const GatherKernel kernel :
+         {GatherKernel::constant, GatherKernel::epanechnikov, GatherKernel::cone, GatherKernel::gaussian}) {
         for (const auto& [count, radius] : {std::pair{6, 5.f}, std::pair{50, 5.f}, std::pair{1000, 0.5f}}) {
             double sum = 0;
             int points = 0;
@@ -122,7 +123,9 @@ TEST(Gather, PathsThatAreNotWantedDoNotCount) {
 
 TEST(Gather, AnEmptyMapIsDark) {
     std::vector<Neighbour> scratch;
-    EXPECT_EQ(gather(World{}, PhotonMap{}, GatherSettings{50, 5}, {5, 0, 5}, white_floor(), {0, 1, 0}, scratch), Color{0});
+    EXPECT_EQ(
+        gather(World{}, PhotonMap{}, GatherSettings{50, 5}, {5, 0, 5}, white_floor(), {0, 1, 0}, scratch),
+        Color{0});
 }
 
 } // namespace
