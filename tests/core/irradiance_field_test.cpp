@@ -6,6 +6,8 @@
 #include "core/trace_photons.h"
 #include "light_scenes.h"
 
+#include <gtest/gtest.h>
+
 namespace pnr {
 namespace {
 
