@@ -259,53 +259,82 @@ std::string did_you_mean(const CLI::App& app, const std::vector<std::string>& ar
     return "";
 }
 
-std::string help_text(CLI::App& app, const std::string& command) {
-    if (command.empty()) return app.help();
-    for (CLI::App* known : app.get_subcommands({}))
-        if (known->get_name() == command) return known->help("pnr " + command);
-    throw UsageError(fmt::format("there is no command `{}`{}", command, did_you_mean(app, {command})));
+// The program's whole command line; what it parses goes into the members.
+struct Parsing {
+    CLI::App app{
+        "pnr renders scenes of POV-Ray's language, as a photograph and as a painting, by photon mapping.",
+        "pnr"};
+    Options options;
+    Words words;
+    std::optional<ProgressMode> progress;
+    std::optional<TextFormat> format;
+
+    Parsing() {
+        app.set_help_flag("-h,--help", "Print this help");
+        app.set_version_flag("--version", fmt::format("pnr {}", version()));
+        app.require_subcommand(1);
+        add_render(app, options, words, progress);
+        add_others(app, options, words, format);
+        app.footer("Exit codes: 0 done, 1 render failed, 2 usage, 3 error in the scene, 4 file not read or "
+                   "written,\n"
+                   "130 or 143 stopped by a signal.");
+    }
+    Parsing(const Parsing&) = delete; // the app points into it
+    Parsing& operator=(const Parsing&) = delete;
+};
+
+bool is_command(CLI::App& app, const std::string& word) {
+    const auto commands = app.get_subcommands([](CLI::App*) { return true; });
+    return std::any_of(commands.begin(), commands.end(),
+                       [&](const CLI::App* command) { return command->get_name() == word; });
+}
+
+[[noreturn]] void refuse_command(const CLI::App& app, const std::string& word) {
+    throw UsageError(fmt::format("there is no command `{}`{}", word, did_you_mean(app, {word})));
+}
+
+// From an app that has parsed nothing: after parsing, CLI11 tells of the command that was given.
+std::string help_text(const std::string& command) {
+    Parsing fresh;
+    std::string text;
+    if (command.empty())
+        text = fresh.app.help();
+    else if (is_command(fresh.app, command))
+        text = fresh.app.get_subcommand(command)->help("pnr");
+    else
+        refuse_command(fresh.app, command);
+    return text.ends_with('\n') ? text : text + "\n";
 }
 
 } // namespace
 
 CommandLine parse_command_line(std::vector<std::string> arguments) {
     arguments = from_povray_options(std::move(arguments));
+    if (arguments.empty()) throw UsageError("a command is expected; `pnr help` lists them");
+    Parsing parsing;
+    CLI::App& app = parsing.app;
+    if (arguments[0][0] != '-' && !is_command(app, arguments[0])) refuse_command(app, arguments[0]);
     CommandLine line;
-    Words words;
-    std::optional<ProgressMode> progress;
-    std::optional<TextFormat> format;
-    CLI::App app(
-        "pnr renders scenes of POV-Ray's language, as a photograph and as a painting, by photon mapping.",
-        "pnr");
-    app.set_help_flag("-h,--help", "Print this help");
-    app.set_version_flag("--version", fmt::format("pnr {}", version()));
-    app.require_subcommand(1);
-    add_render(app, line.options, words, progress);
-    add_others(app, line.options, words, format);
-    app.footer(
-        "Exit codes: 0 done, 1 render failed, 2 usage, 3 error in the scene, 4 file not read or written,\n"
-        "130 or 143 stopped by a signal.");
     try {
-        if (arguments.empty()) throw UsageError("a command is expected; `pnr help` lists them");
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
-        line.options.command = app.get_subcommands().front()->get_name();
-        if (line.options.command == "help") line.answer = help_text(app, words.help);
+        parsing.options.command = app.get_subcommands().front()->get_name();
+        if (parsing.options.command == "help") line.answer = help_text(parsing.words.help);
     } catch (const CLI::CallForHelp&) {
         const auto chosen = app.get_subcommands();
-        line.answer = help_text(app, chosen.empty() ? "" : chosen.front()->get_name());
+        line.answer = help_text(chosen.empty() ? "" : chosen.front()->get_name());
     } catch (const CLI::CallForVersion& version_text) {
         line.answer = std::string(version_text.what()) + "\n";
     } catch (const CLI::ParseError& error) {
         const auto chosen = app.get_subcommands();
         const CLI::App& at = chosen.empty() ? app : *chosen.front();
-        const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
-                             dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+        const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
         throw UsageError(error.what() + (unknown ? did_you_mean(at, arguments) : ""));
     }
     if (!line.answer.empty()) return line;
-    line.options.progress = progress.value_or(ProgressMode::automatic);
-    line.options.format = format.value_or(TextFormat::text);
-    finish_options(line.options, words);
+    parsing.options.progress = parsing.progress.value_or(ProgressMode::automatic);
+    parsing.options.format = parsing.format.value_or(TextFormat::text);
+    finish_options(parsing.options, parsing.words);
+    line.options = std::move(parsing.options);
     return line;
 }
 

@@ -36,6 +36,9 @@ TEST(Program, AnswersGoToStandardOutputAlone) {
         EXPECT_EQ(ran.err, "");
     }
     EXPECT_NE(run_pnr(folder, {"help", "render"}).out.find("--crop"), std::string::npos);
+    for (const char* command : {"render", "check", "plan", "pick"})
+        EXPECT_NE(run_pnr(folder, {"help"}).out.find(command), std::string::npos) << command;
+    EXPECT_EQ(run_pnr(folder, {"help", "pick"}).out, run_pnr(folder, {"pick", "--help"}).out);
 }
 
 TEST(Program, CommandsWithoutPicturesDoNotNeedTheImageModule) {
