@@ -352,18 +352,20 @@ void name_originals(const KdTree& tree, std::vector<Neighbour>& found) {
 
 } // namespace
 
-void find_nearest(const KdTree& tree, Vec3f point, int k, float radius, std::vector<Neighbour>& found) {
-    found.clear();
-    if (tree.count == 0 || k <= 0) return;
-    float bound = square_of(radius);
-    const std::size_t wanted = std::min(static_cast<std::size_t>(k), tree.count);
+namespace {
+
+// The k nearest within radius in any order, by their places in leaf order; ties as Order has them.
+template <class Order>
+void search_nearest(const KdTree& tree, Vec3f point, std::size_t wanted, float radius2, Order nearer,
+                    std::vector<Neighbour>& found) {
+    float bound = radius2;
     // Candidates pile up to a few times k before the k nearest of them are kept: cheaper than a heap.
     const std::size_t full = 3 * wanted + leaf_points;
     found.resize(full + leaf_points + 4);
     std::size_t n = 0;
     const auto keep_nearest = [&] {
         const auto kth = found.begin() + static_cast<std::ptrdiff_t>(wanted - 1);
-        std::nth_element(found.begin(), kth, found.begin() + static_cast<std::ptrdiff_t>(n), Nearer(tree));
+        std::nth_element(found.begin(), kth, found.begin() + static_cast<std::ptrdiff_t>(n), nearer);
         bound = kth->distance2;
         n = wanted;
     };
@@ -379,6 +381,15 @@ void find_nearest(const KdTree& tree, Vec3f point, int k, float radius, std::vec
     });
     if (n > wanted) keep_nearest();
     found.resize(n);
+}
+
+} // namespace
+
+void find_nearest(const KdTree& tree, Vec3f point, int k, float radius, std::vector<Neighbour>& found) {
+    found.clear();
+    if (tree.count == 0 || k <= 0) return;
+    const std::size_t wanted = std::min(static_cast<std::size_t>(k), tree.count);
+    search_nearest(tree, point, wanted, square_of(radius), Nearer(tree), found);
     std::sort(found.begin(), found.end(), Nearer(tree));
     name_originals(tree, found);
 }
@@ -479,33 +490,31 @@ float find_nearest_near(const KdTree& tree, Vec3f point, int k, float radius, Se
     const Query query(point);
     std::array<Neighbour, 1024> room; // not initialised: a vector's filling would cost as much as a search
     constexpr std::size_t most = 1024 - leaf_points - 4;
+    const auto by_place = [](const Neighbour& a, const Neighbour& b) {
+        return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.index < b.index);
+    };
     std::size_t n = 0;
     float bound = guess_bound(hint, point, radius2);
-    bool fits = tree.order.empty() && wanted < most && (bound > 0 || radius2 == 0);
+    bool fits = wanted < most && (bound > 0 || radius2 == 0);
     while (fits && (fits = collect(tree, query, bound, most, room.data(), n)) && n < wanted &&
            bound < radius2) {
         const float missing = static_cast<float>(wanted) / static_cast<float>(n + 1);
         bound = std::min(radius2, bound * std::clamp(1.3f * missing, 1.5f, 16.f));
     }
     if (!fits) { // no hint, a poor one, or very many
-        find_nearest(tree, point, k, radius, found);
-        const float largest = found.empty() ? 0 : found.back().distance2;
+        search_nearest(tree, point, wanted, radius2, by_place, found);
         std::sort(found.begin(), found.end(),
                   [](const Neighbour& a, const Neighbour& b) { return a.index < b.index; });
-        if (found.size() == wanted) hint = {point, std::sqrt(largest)};
-        return largest;
-    }
-    float largest = 0;
-    if (n > wanted) {
-        const Kth kth = find_kth(room.data(), n, wanted, bound);
-        keep_within(room.data(), n, wanted, kth);
+        n = found.size();
+    } else if (n > wanted) {
+        keep_within(room.data(), n, wanted, find_kth(room.data(), n, wanted, bound));
         n = wanted;
-        largest = kth.distance2;
-    } else {
-        for (std::size_t i = 0; i < n; ++i) largest = std::max(largest, room[i].distance2);
     }
-    found.assign(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n));
+    if (fits) found.assign(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n));
+    float largest = 0;
+    for (const Neighbour& neighbour : found) largest = std::max(largest, neighbour.distance2);
     if (n == wanted) hint = {point, std::sqrt(largest)};
+    name_originals(tree, found);
     return largest;
 }
 

@@ -57,10 +57,10 @@ struct SearchHint {
     Vec3f point{0};
     float distance = 0;
 };
-// The k nearest with distance <= radius, as find_nearest, but in the order of their indices, not of distance:
-// several times faster, for sums over photons. The tree's points must have been given in leaf order
-// (kdtree_of_leaf_order). `hint` is from a search nearby for the same k, and is left for the next one; the
-// result does not depend on it, the time does. Returns the largest squared distance found; 0 if none.
+// The k nearest with distance <= radius, as find_nearest, but in the tree's leaf order, and ties by that
+// order: several times faster, for sums over photons. `hint` is from a search nearby for the same k, and is
+// left for the next one; the result does not depend on it, the time does. Returns the largest squared
+// distance found; 0 if none.
 float find_nearest_near(const KdTree& tree, Vec3f point, int k, float radius, SearchHint& hint,
                         std::vector<Neighbour>& found);
 
