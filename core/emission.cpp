@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/emission.h"
 
+#include "core/material.h"
 #include "core/sobol.h"
 
 #include <algorithm>
@@ -70,18 +71,52 @@ Aim parallel_aim(const Light& light, const Focus& sphere) {
     return aim;
 }
 
-std::vector<Aim> make_aims(const Focus& focus, const Light& light, bool unbounded) {
+std::vector<Aim> make_aims(const Focus& focus, const std::vector<Focus>& targets, const Light& light,
+                           bool unbounded) {
     const auto aim = [&](const Focus& sphere) {
         return is_parallel(light) ? parallel_aim(light, sphere) : point_aim(light, sphere);
     };
-    std::vector<Aim> aims{aim(focus)};
-    if (!unbounded) return aims;
-    const Aim wide = aim({focus.center, emission_reach * focus.radius});
-    // Not worth a second one if they are nearly the same.
-    if (wide.measure < 1.5 * aims[0].measure) return {wide};
-    aims.push_back(wide);
-    for (Aim& a : aims) a.share = 0.5;
+    std::vector<Aim> aims;
+    for (const Focus& target : targets) aims.push_back(aim(target));
+    if (targets.empty()) aims.push_back(aim(focus));
+    if (targets.empty() && unbounded) {
+        const Aim wide = aim({focus.center, emission_reach * focus.radius});
+        if (wide.measure < 1.5 * aims[0].measure) return {wide}; // not worth a second one
+        aims.push_back(wide);
+    }
+    // By measure each target gets the same density; the focus and its surroundings get half each.
+    double whole = 0;
+    for (const Aim& a : aims) whole += a.measure;
+    for (Aim& a : aims)
+        a.share = targets.empty() ? 1.0 / static_cast<double>(aims.size()) : a.measure / whole;
     return aims;
+}
+
+bool said_target(const World& world) {
+    return std::any_of(world.materials.begin(), world.materials.end(),
+                       [](const Material& material) { return material.photons.target; });
+}
+
+// The bounding spheres of the objects that throw caustics; none if the whole scene is to be aimed at:
+// caustics are not all that is wanted, or something unbounded throws them.
+std::vector<Focus> find_targets(const World& world) {
+    std::vector<Focus> targets;
+    if (world.illumination != Illumination::caustics) return targets;
+    const bool said = said_target(world);
+    std::vector<char> throws(world.objects.size(), 0);
+    for (const Surface& surface : world.surfaces) {
+        if (surface.light >= 0) continue;
+        const Material& material = world.materials[static_cast<std::size_t>(surface.material)];
+        if (is_specular(material) && (!said || material.photons.target))
+            throws[static_cast<std::size_t>(surface.object)] = 1;
+    }
+    for (std::size_t i = 0; i < world.objects.size(); ++i) {
+        const Bounds& b = world.objects[i].bounds;
+        if (throws[i] == 0 || is_empty(b)) continue;
+        if (!is_bounded(b)) return {};
+        targets.push_back({0.5 * (b.low + b.high), 0.5 * glm::length(b.high - b.low)});
+    }
+    return targets;
 }
 
 double mean(Color c) { return (static_cast<double>(c.x) + c.y + c.z) / 3; }
@@ -157,6 +192,8 @@ EmissionPlan plan_emission(const World& world, const PhotonSettings& settings) {
     EmissionPlan plan;
     const bool unbounded = has_unbounded(world);
     plan.focus = make_focus(world, unbounded);
+    const std::vector<Focus> targets = find_targets(world);
+    plan.targeted = world.illumination == Illumination::caustics && said_target(world);
     const std::int64_t wanted = photon_count(plan.focus, settings);
     double total = 0;
     std::vector<double> weights;
@@ -176,7 +213,8 @@ EmissionPlan plan_emission(const World& world, const PhotonSettings& settings) {
         share.light = static_cast<int>(i);
         share.first = plan.count;
         share.count = std::max<std::int64_t>(1, part(before + weights[i]) - part(before));
-        if (!world.lights[i].is_emitter()) share.aims = make_aims(plan.focus, world.lights[i], unbounded);
+        if (!world.lights[i].is_emitter())
+            share.aims = make_aims(plan.focus, targets, world.lights[i], unbounded);
         before += weights[i];
         plan.count += share.count;
         plan.shares.push_back(std::move(share));

@@ -41,6 +41,7 @@ struct EmissionPlan {
     Focus focus;
     std::vector<LightShare> shares; // by light
     std::int64_t count = 0;         // photons of a pass
+    bool targeted = false;          // some object said `photons { target }`: others throw no caustics
 };
 
 // Shares the pass' photons out by power; for POV-Ray's lights by the flux that meets the scene. Lights

@@ -461,9 +461,9 @@ void keep_within(Neighbour* candidates, std::size_t n, std::size_t k, Kth kth) {
 }
 
 // A guess at the search radius: a little more than the hint's, but no more than what must hold k by the
-// triangle inequality.
+// triangle inequality; without a hint all of a finite radius. 0: none.
 float guess_bound(const SearchHint& hint, Vec3f point, float radius2) {
-    if (!(hint.distance > 0)) return 0;
+    if (!(hint.distance > 0)) return std::isfinite(radius2) ? radius2 : 0;
     const float sure = 1.0001f * (hint.distance + glm::distance(point, hint.point));
     return std::min({radius2, 1.2f * hint.distance * hint.distance, sure * sure});
 }

@@ -104,6 +104,19 @@ Bsdf make_bsdf(const World& world, const Hit& hit, Vec3 outgoing) {
     return bsdf;
 }
 
+bool is_specular(const Material& material) {
+    if (material.photons.specular_probability.value_or(0) > 0) return true;
+    if (max_component(material.finish.reflection.max) > 0 ||
+        max_component(material.finish.reflection.min) > 0)
+        return true;
+    if (const auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern))
+        return picture->once || std::any_of(picture->image->pixels.begin(), picture->image->pixels.end(),
+                                            [](const glm::vec4& p) { return p.w < 1; });
+    return std::any_of(material.pigment.map.begin(), material.pigment.map.end(), [](const ColorStop& stop) {
+        return stop.color.filter > 0 || stop.color.transmit > 0;
+    });
+}
+
 bool has_diffuse(const Bsdf& bsdf) { return !is_black(bsdf.diffuse) || !is_black(bsdf.glossy); }
 bool has_specular(const Bsdf& bsdf) { return !is_black(bsdf.mirror) || !is_black(bsdf.transmit); }
 

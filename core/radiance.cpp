@@ -110,29 +110,31 @@ Color density_estimate(const PhotonMap& map, const GatherSettings& settings, Vec
     const KdTree& tree = caustics_alone ? map.caustic : map.tree;
     if (tree.count == 0) return Color{0};
     float radius = settings.radius;
-    find_nearest(tree, at, settings.count, radius, scratch);
+    SearchHint hint;
+    float farthest2 = find_nearest_near(tree, at, settings.count, radius, hint, scratch);
     for (int widened = 0; widened < 2 && static_cast<int>(scratch.size()) < settings.least; ++widened) {
         radius *= 2;
-        find_nearest(tree, at, settings.count, radius, scratch);
+        hint = {};
+        farthest2 = find_nearest_near(tree, at, settings.count, radius, hint, scratch);
     }
     if (scratch.empty()) return Color{0};
     // The k-th photon gives the radius and is left out; so is any other at just its distance (weight 0, or a
     // tie).
     const bool full = static_cast<int>(scratch.size()) >= settings.count;
-    const float radius2 = full ? scratch.back().distance2 : radius * radius;
-    const std::size_t used = full ? scratch.size() - 1 : scratch.size();
+    const float radius2 = full ? farthest2 : radius * radius;
     if (radius2 <= 0) return Color{0};
 
     const Vec3f normal(bsdf.geometric);
     const float thickness = flatness * std::sqrt(radius2);
     const bool lambertian = is_black(bsdf.glossy);
     Color sum{0};
-    for (std::size_t i = 0; i < used; ++i) {
-        const Photon& photon = map.photons[scratch[i].index];
+    for (const Neighbour& near : scratch) {
+        if (full && near.distance2 >= radius2) continue;
+        const Photon& photon = map.photons[near.index];
         if (!path_wanted(settings, photon.path())) continue;
         if (glm::dot(photon.direction, normal) >= 0) continue;
         if (std::abs(glm::dot(photon.position - at, normal)) > thickness) continue;
-        const float weight = kernel_weight(settings.kernel, scratch[i].distance2, radius2);
+        const float weight = kernel_weight(settings.kernel, near.distance2, radius2);
         if (lambertian)
             sum += photon.flux * weight;
         else

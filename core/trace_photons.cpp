@@ -149,7 +149,7 @@ Outcome scatter_by_roles(const Material& material, const Hit& hit, const Bsdf& b
 
 struct Tracer {
     const World& world;
-    const Focus& focus;
+    const EmissionPlan& plan;
     bool keep_normals;
     Chunk& chunk;
 
@@ -187,6 +187,15 @@ struct Tracer {
         flight.flux = left;
     }
 
+    // POV-Ray's `reflection on` and `refraction on`, where caustics alone are wanted: an object that says one
+    // of them throws caustics by that one only.
+    bool caustic_allowed(const PhotonRoles& roles, Event event) const {
+        if (world.illumination != Illumination::caustics || (!roles.reflection && !roles.refraction))
+            return true;
+        return (event == Event::reflected && roles.reflection) ||
+               (event == Event::refracted && roles.refraction);
+    }
+
     // One hit; false when the path ends.
     bool step(const Light& light, Flight& flight, PathNumbers& numbers) const {
         const std::optional<Hit> hit = closest_hit(world, flight.ray, RayKind::photon);
@@ -208,10 +217,12 @@ struct Tracer {
         const bool diffuse = has_diffuse(bsdf);
         if (!flight.booked) {
             if (!settle(light, *hit, diffuse, flight)) return false;
-            if (glm::distance(hit->position, focus.center) > emission_reach * focus.radius) return false;
+            if (glm::distance(hit->position, plan.focus.center) > emission_reach * plan.focus.radius)
+                return false;
         }
         if (!(largest(flight.flux) > 0)) return false;
-        if (diffuse) store(*hit, bsdf, surface, flight);
+        if (plan.targeted && flight.bounces == 0 && !material.photons.target) return false;
+        if (diffuse && material.photons.collect) store(*hit, bsdf, surface, flight);
         return scatter(*hit, bsdf, material, outgoing, flight, numbers);
     }
 
@@ -224,6 +235,7 @@ struct Tracer {
                                   : scatter_by_finish(bsdf, outgoing, flight.flux, u, xi);
         if (flight.booked) chunk.balance.absorbed += out.absorbed;
         if (out.event == Event::absorbed || !(largest(out.flux) > 0)) return false;
+        if (!caustic_allowed(material.photons, out.event)) return false;
         flight.flux = out.flux;
         if (out.event == Event::scattered)
             flight.scattered = true;
@@ -256,7 +268,7 @@ PhotonMap trace_photons(const World& world, const PhotonSettings& settings, std:
         plan.count, photons_per_chunk, [&](std::int64_t begin, std::int64_t end, std::int64_t number) {
             if (stop) return;
             Chunk& chunk = chunks[static_cast<std::size_t>(number)];
-            const Tracer tracer{world, plan.focus, keep_normals, chunk};
+            const Tracer tracer{world, plan, keep_normals, chunk};
             auto share = std::upper_bound(plan.shares.begin(), plan.shares.end(), begin,
                                           [](std::int64_t i, const LightShare& s) { return i < s.first; }) -
                          1;

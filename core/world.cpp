@@ -3,6 +3,7 @@
 
 #include "core/geometry.h"
 #include "core/image_io.h"
+#include "core/material.h"
 #include "core/mesh_io.h"
 
 #include <algorithm>
@@ -281,19 +282,6 @@ void Builder::find_object_bounds(const std::vector<Bounds>& boxes) {
         Bounds& b = world.objects[static_cast<std::size_t>(world.surfaces[i].object)].bounds;
         b = merge(b, boxes[i]);
     }
-}
-
-bool is_specular(const Material& material) {
-    if (material.photons.specular_probability.value_or(0) > 0) return true;
-    if (max_component(material.finish.reflection.max) > 0 ||
-        max_component(material.finish.reflection.min) > 0)
-        return true;
-    if (const auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern))
-        return picture->once || std::any_of(picture->image->pixels.begin(), picture->image->pixels.end(),
-                                            [](const glm::vec4& p) { return p.w < 1; });
-    return std::any_of(material.pigment.map.begin(), material.pigment.map.end(), [](const ColorStop& stop) {
-        return stop.color.filter > 0 || stop.color.transmit > 0;
-    });
 }
 
 Illumination choose_illumination(const Scene& scene, const World& world, const PhotonSettings& photons) {

@@ -210,6 +210,49 @@ TEST(TracePhotons, PovrayLightsCountTheWholePathOverMirrors) {
     EXPECT_NEAR(sum / (pi * 0.16), pi, 0.1); // the mirror sends the beam straight down
 }
 
+// `photons {}` alone: caustics only, and every photon aims at what throws them. A ball of ior 1 bends
+// nothing, so that the flux behind it is the light's own irradiance over its shadow.
+TEST(TracePhotons, CausticsAloneAimAtTheirTargets) {
+    Scene scene;
+    scene.objects.push_back(object_of(Plane{{0, 1, 0}, 0}, Color(0.5f)));
+    for (const double x : {0.0, 3.0}) {
+        Object ball = object_of(Sphere{{x, 2, 0}, 0.25}, Color(1), 0);
+        ball.texture->pigment.map[0].color.transmit = 1;
+        scene.objects.push_back(ball);
+    }
+    LightSource light;
+    light.position = {0, 50, 0};
+    light.color = Color(0.8f);
+    scene.lights = {light};
+    Settings settings;
+    settings.photons.wanted = true;
+    settings.photons.count = 20000;
+    const auto flux_at = [&](double x) {
+        const World world = build_world(scene, settings);
+        EXPECT_EQ(world.illumination, Illumination::caustics);
+        const PhotonMap map = trace_photons(world, settings.photons, 1, 0, false);
+        double sum = 0;
+        for (const Photon& p : map.photons) {
+            EXPECT_EQ(p.path(), PhotonPath::caustic);
+            if (glm::distance(Vec3(p.position) + world.offset, Vec3(x, 0, 0)) < 1) sum += p.flux.x;
+        }
+        // A tenth of the photons at least: the spheres about the balls' boxes are three times their section.
+        EXPECT_GT(map.photons.size(), 2000u);
+        return sum;
+    };
+    // The shadow of the ball on the floor: radius 0.25 seen from 48 away, at 50.
+    const double truth = pi * 0.8 * pi * std::pow(0.25 * 50 / 48.0, 2);
+    EXPECT_NEAR(flux_at(0), truth, 0.03 * truth);
+    EXPECT_GT(flux_at(3.125), 0.9 * truth); // shifted and a little stretched
+    scene.objects[1].photons = PhotonRoles{};
+    scene.objects[1].photons->target = true;
+    EXPECT_NEAR(flux_at(0), truth, 0.03 * truth);
+    EXPECT_EQ(flux_at(3.125), 0);                // no target, no caustic
+    scene.objects[1].photons->reflection = true; // and not by refraction
+    const World world = build_world(scene, settings);
+    EXPECT_TRUE(trace_photons(world, settings.photons, 1, 0, false).photons.empty());
+}
+
 // [LW10 Table 1] in sequence: specular with PSR, else absorbed with PA, else diffuse, in the pigment's colour
 // over its largest component.
 TEST(TracePhotons, ProbabilitiesOfTable1) {
