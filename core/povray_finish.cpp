@@ -188,12 +188,8 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
     const Color glow = point.color * point.opacity * (finish.ambient * world.ambient_light + finish.emission);
     const Color mirror = reflectance(point);
     Color through = point.transparency;
-    Color surface = direct + glow + caustic;
-    if (finish.conserve_energy) {
-        const Color rest = glm::max(Color{0}, Color{1} - mirror);
-        through *= rest;
-        surface *= rest;
-    }
+    const Color surface = direct + glow + caustic;
+    if (finish.conserve_energy) through *= glm::max(Color{0}, Color{1} - mirror);
     const Color specular = reflected_light(shading, segment, point, mirror, state) +
                            transmitted_light(shading, segment, point, through, state);
     if (segment.level == 0) {

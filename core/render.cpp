@@ -68,7 +68,13 @@ void add_photon_mapped_sample(const Job& job, int x, int y, int i, std::vector<K
     const Rng pixel = make_rng(settings.seed, Pass::render, pixel_place(x, y));
     SampleState state;
     state.rng = {hash_words(pixel.key, static_cast<std::uint64_t>(i)), 0};
-    state.points = {pixel.key, static_cast<std::uint32_t>(i)};
+    // The first samples share the shadow rays asked for; those that refine a pixel bring a quarter as many
+    // each.
+    const int base = std::max(1, settings.samples_min);
+    const int early = std::max(1, (settings.shadow_samples + base - 1) / base), late = (early + 3) / 4;
+    state.shadow_samples = i < base ? early : late;
+    state.points = {pixel.key,
+                    static_cast<std::uint32_t>(i < base ? i * early : base * early + (i - base) * late)};
     state.kept = &kept;
     state.scratch = &scratch;
     const Ray ray = pixel_ray(job.gbuffer.view, pixel_sample(settings.seed, x, y, i));
@@ -264,8 +270,7 @@ RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap&
     const bool path = settings.render.integrator == Integrator::path;
     const int first = std::max(1, path ? settings.render.samples_max : settings.render.samples_min);
     const int most = std::max(first, settings.render.samples_max);
-    Shading shading{world, map, settings.render, {}, {}, 1, want_parts};
-    shading.shadow_samples = std::max(1, (settings.render.shadow_samples + first - 1) / first);
+    Shading shading{world, map, settings.render, {}, {}, want_parts};
     choose_gathers(shading, settings.photons);
 
     Job job{shading, gbuffer, settings, grow(window, 1, width, height), {}};

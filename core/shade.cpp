@@ -37,7 +37,7 @@ Bsdf irradiance_meter(const Bsdf& bsdf) {
 // over the gather disc's width at most, which is many pixels.
 Color indirect_irradiance(const Shading& shading, const Hit& hit, const Bsdf& bsdf, Vec3 outgoing,
                           SampleState& state) {
-    const double near = 0.05 * shading.indirect.radius;
+    const double near = 0.1 * shading.indirect.radius;
     for (const KeptIrradiance& kept : *state.kept) {
         const Vec3 apart = kept.position - hit.position;
         if (kept.surface == hit.surface && glm::dot(apart, apart) < near * near &&
@@ -69,9 +69,8 @@ Color caustic_light(const Shading& shading, const Hit& hit, const Bsdf& bsdf, Ve
 }
 
 // Shadow rays that a point is worth: fewer where little of its light reaches the camera.
-int shadow_samples(const Shading& shading, Color throughput) {
-    const double share =
-        std::min(1.0f, max_component(throughput)) * static_cast<float>(shading.shadow_samples);
+int shadow_samples(const SampleState& state, Color throughput) {
+    const double share = std::min(1.0f, max_component(throughput)) * static_cast<float>(state.shadow_samples);
     return std::max(1, static_cast<int>(std::ceil(share)));
 }
 
@@ -80,9 +79,8 @@ Color surface_light(const Shading& shading, const Segment& segment, const Hit& h
     const Vec3 outgoing = -segment.ray.direction;
     const Color emitted = emitted_radiance(shading.world, hit, bsdf);
     if (!has_diffuse(bsdf)) return emitted;
-    const int samples = shadow_samples(shading, segment.throughput);
+    const int samples = shadow_samples(state, segment.throughput);
     LightPoints points = state.points;
-    points.first *= static_cast<std::uint32_t>(samples);
     points.key = hash_words(points.key, static_cast<std::uint64_t>(segment.level));
     const Color direct = direct_light(shading.world, hit, bsdf, outgoing, samples, points);
     const Color indirect = indirect_light(shading, hit, bsdf, outgoing, state);

@@ -16,7 +16,6 @@ struct Shading {
     const PhotonMap& map;
     const RenderSettings& settings;
     GatherSettings indirect, caustic; // of the map; count 0: none wanted
-    int shadow_samples = 1;           // a camera sample, to each emitter
     bool parts = false;               // LightParts are wanted
 };
 
@@ -30,7 +29,8 @@ struct KeptIrradiance {
 // The state of one camera sample; `kept` and `scratch` live as long as the pixel.
 struct SampleState {
     Rng rng;
-    LightPoints points;
+    LightPoints points;     // of this sample: its first point and `shadow_samples` - 1 more
+    int shadow_samples = 1; // to each emitter
     std::vector<KeptIrradiance>* kept = nullptr;
     std::vector<Neighbour>* scratch = nullptr;
     bool on_chain = true;    // still on the chain that the G-buffer follows
