@@ -125,6 +125,7 @@ void else_directive(Parser& p, const Token& branch) {
 }
 
 void count_turn(Parser& p, const Token& opener) {
+    p.in.last_loop = &opener;
     if (++p.in.used.loop_turns > p.in.options.budgets.loop_turns)
         stop(p, opener,
              fmt::format("the scene's loops turn more than {} times", p.in.options.budgets.loop_turns),

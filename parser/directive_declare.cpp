@@ -36,6 +36,15 @@ struct Target {
     std::size_t element = 0;
 };
 
+// `#declare deprecated [once] ["message"] NAME`: the message is for the day the name is used; it is passed
+// over.
+void skip_deprecated(Parser& p) {
+    if (!is(peek_raw(p), "deprecated"_kw)) return;
+    next_raw(p);
+    if (is(peek_raw(p), "once"_kw)) next_raw(p);
+    if (peek_raw(p).kind == TokenKind::string) next_raw(p);
+}
+
 Target take_target(Parser& p, const Token& directive) {
     const Token name = take_new_name(p, directive);
     Target target{name.symbol, nullptr, 0};
@@ -64,6 +73,7 @@ void poison(Expander& in, Symbol symbol) {
 } // namespace
 
 void declare_directive(Parser& p, const Token& directive, bool local) {
+    skip_deprecated(p);
     const Token name = peek_raw(p);
     try {
         const HoldScope hold(p);
@@ -110,6 +120,7 @@ bool ifdef_condition(Parser& p, const Token& directive) {
 
 void macro_directive(Parser& p, const Token& directive) {
     auto macro = std::make_shared<Macro>();
+    skip_deprecated(p);
     const Token name = take_new_name(p, directive);
     macro->name = name.symbol;
     macro->span = name.span;

@@ -66,6 +66,17 @@ bool held(const Expander& in, const TokenFrame& frame, bool behind_operand) {
     return closes_before(frame, token, in.hold.start);
 }
 
+[[noreturn]] void stop_at_tokens(Parser& p, const Token& at) {
+    const std::int64_t most = p.in.options.budgets.tokens;
+    constexpr std::int64_t suspicious = 100'000; // turns
+    if (p.in.last_loop && p.in.used.loop_turns > suspicious)
+        stop(p, *p.in.last_loop,
+             fmt::format("the scene has more than {} tokens after expansion; its loops have turned {} times",
+                         most, p.in.used.loop_turns),
+             "does this loop's condition ever become false?");
+    stop(p, at, fmt::format("the scene has more than {} tokens after expansion", most));
+}
+
 void fill(Parser& p, bool behind_operand) {
     Expander& in = p.in;
     for (;;) {
@@ -83,9 +94,7 @@ void fill(Parser& p, bool behind_operand) {
             continue;
         }
         const Token& token = frame.tokens[frame.position++];
-        if (++in.used.tokens > in.options.budgets.tokens)
-            stop(p, token,
-                 fmt::format("the scene has more than {} tokens after expansion", in.options.budgets.tokens));
+        if (++in.used.tokens > in.options.budgets.tokens) stop_at_tokens(p, token);
         if (token.kind == TokenKind::directive) {
             run_directive(p, token);
             if (in.buffered) return;

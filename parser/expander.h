@@ -118,6 +118,7 @@ struct Expander {
     Hold hold;
 
     Counters used;
+    const Token* last_loop = nullptr; // the #while or #for that turned last
     std::shared_ptr<std::int64_t> bytes =
         std::make_shared<std::int64_t>(0); // in use; arrays give theirs back
     int errors = 0;

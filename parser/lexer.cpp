@@ -193,7 +193,8 @@ void lex_word(Lexer& lexer) {
 
 void lex_directive(Lexer& lexer) {
     const char* from = lexer.at++;
-    while (lexer.at < lexer.end && (*lexer.at == ' ' || *lexer.at == '\t')) ++lexer.at;
+    while (lexer.at < lexer.end && std::strchr(" \t\r\n", *lexer.at) != nullptr && *lexer.at != '\0')
+        ++lexer.at;
     const char* word = lexer.at;
     while (lexer.at < lexer.end && (is_letter(*lexer.at) || is_digit(*lexer.at))) ++lexer.at;
     if (word == lexer.at) {

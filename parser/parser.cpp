@@ -150,7 +150,9 @@ std::uint64_t place_hash(const Span& span, std::string_view message) {
 void record(Parser& p, Severity severity, const Token& at, std::string message, std::string help,
             std::vector<Note> notes = {}) {
     Expander& in = p.in;
-    if (severity == Severity::warning && in.used.warnings >= in.options.budgets.warnings) return;
+    // A warning behind an error may be that error's echo ("no pigment" where the pigment could not be read).
+    if (severity == Severity::warning && (in.errors > 0 || in.used.warnings >= in.options.budgets.warnings))
+        return;
     if (!in.reported.insert(place_hash(at.span, message)).second) return;
     for (Note& note : chain_notes(in, at.chain)) notes.push_back(std::move(note));
     in.diagnostics.push_back({severity, at.span, std::move(message), std::move(notes), std::move(help)});

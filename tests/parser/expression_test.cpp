@@ -148,7 +148,8 @@ TEST(Expression, Vectors) {
         {3, "vaxis_rotate(<1, 2, 3>, <1, 1, 0>, 30)", "2.1276 0.8724 2.9516"},
         {3, "(1 ? <1, 2, 3> : 4)", "1.0000 2.0000 3.0000"},
     };
-    for (const VectorRow& row : rows) EXPECT_EQ(vector(row.size, row.expression), row.printed) << row.expression;
+    for (const VectorRow& row : rows)
+        EXPECT_EQ(vector(row.size, row.expression), row.printed) << row.expression;
 }
 
 TEST(Expression, Colours) {
@@ -192,7 +193,8 @@ TEST(Expression, Strings) {
 }
 
 TEST(Expression, RandomStreamsArePovRays) { // printed by POV-Ray 3.7
-    EXPECT_EQ(run("#declare S = seed(3); #debug vstr(2, <rand(S), rand(S)>, \" \", 0, 12)"), "0.265972876983 0.528236225603");
+    EXPECT_EQ(run("#declare S = seed(3); #debug vstr(2, <rand(S), rand(S)>, \" \", 0, 12)"),
+              "0.265972876983 0.528236225603");
     EXPECT_EQ(run("#declare S = seed(0); #debug str(rand(S), 0, 12)"), "0.000002874294");
     EXPECT_EQ(run("#declare S = seed(-7.9); #debug str(rand(S), 0, 12)"), "0.046072868175");
     EXPECT_EQ(run("#declare S = seed(4294967299); #debug str(rand(S), 0, 12)"), "0.500002874411");
@@ -202,10 +204,12 @@ TEST(Expression, Arrays) {
     EXPECT_EQ(run("#declare A = array[3] {1, 2, 3} #debug str(A[0] + A[1] * A[2], 0, 0)"), "7");
     EXPECT_EQ(run("#declare A = array[2][2] {{1, 2}, {3, 4}} #debug str(A[1][0], 0, 0)"), "3");
     EXPECT_EQ(run("#declare A = array[2]; #declare A[1] = <1, 2, 3>; #debug str(A[1].z, 0, 0)"), "3");
-    EXPECT_EQ(run("#declare A = array[2] {1, 2} #declare B = A; #declare B[0] = 9; #debug str(A[0], 0, 0)"), "1");
+    EXPECT_EQ(run("#declare A = array[2] {1, 2} #declare B = A; #declare B[0] = 9; #debug str(A[0], 0, 0)"),
+              "1");
     EXPECT_EQ(run("#declare A = array[2] {\"a\", \"b\"} #debug concat(A[1], A[0])"), "ba");
     EXPECT_EQ(run("#declare A = array[2]; #declare A[0] = array[2] {5, 6} #debug str(A[0][1], 0, 0)"), "6");
-    EXPECT_EQ(run("#declare A = array[2][5]; #debug str(dimensions(A) * 10 + dimension_size(A, 2), 0, 0)"), "25");
+    EXPECT_EQ(run("#declare A = array[2][5]; #debug str(dimensions(A) * 10 + dimension_size(A, 2), 0, 0)"),
+              "25");
 }
 
 TEST(Expression, NumbersBesideVectorsInBlocks) {
@@ -232,14 +236,19 @@ TEST(Expression, ErrorsAreLocated) {
         {"#declare A = Foo;", "test.pnr:1:14: error: `Foo` is not declared"},
         {"#declare A = array[2] {1, 2} #declare B = A[2];",
          "test.pnr:1:45: error: index 2 is outside of `A`, which goes from 0 to 1"},
-        {"#declare A = array[2]; #declare B = A[0] + 1;", "test.pnr:1:37: error: this element of `A` has no value yet"},
+        {"#declare A = array[2]; #declare B = A[0] + 1;",
+         "test.pnr:1:37: error: this element of `A` has no value yet"},
         {"#declare A = <1, 2>.z;", "test.pnr:1:21: error: a vector of 2 components has no `.z`"},
-        {"#declare A = \"a\"; #declare B = 1 + A;", "test.pnr:1:36: error: a number or vector is needed here, `A` is a string"},
+        {"#declare A = \"a\"; #declare B = 1 + A;",
+         "test.pnr:1:36: error: a number or vector is needed here, `A` is a string"},
         {"#declare A = sin 3;", "test.pnr:1:14: error: `sin` is a function: it needs `(`"},
-        {"#declare A = atan2(1);", "test.pnr:1:21: error: `atan2` needs another argument: expected `,`, found `)`"},
+        {"#declare A = atan2(1);",
+         "test.pnr:1:21: error: `atan2` needs another argument: expected `,`, found `)`"},
         {"#declare A = rand(0);", "test.pnr:1:14: error: 0 is no stream of random numbers"},
-        {"#declare A = substr(\"abc\", 2, 3);", "test.pnr:1:28: error: substr: characters 2 to 4 of a string that has 3"},
-        {"#if (<1, 2>) #end", "test.pnr:1:6: error: a number is needed here, this is a vector of 2 components"},
+        {"#declare A = substr(\"abc\", 2, 3);",
+         "test.pnr:1:28: error: substr: characters 2 to 4 of a string that has 3"},
+        {"#if (<1, 2>) #end",
+         "test.pnr:1:6: error: a number is needed here, this is a vector of 2 components"},
     };
     for (const Row& row : rows) EXPECT_EQ(first_error(row.expression), row.printed) << row.expression;
 }

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// No scene hangs, overflows the stack or exhausts memory: it is read, or refused at a place.
+#include "evaluate.h"
+
+#include "parser/expander.h"
+#include "parser/parser.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace pnr::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string repeated(std::string_view text, int times) {
+    std::string all;
+    all.reserve(text.size() * static_cast<std::size_t>(times));
+    for (int i = 0; i < times; ++i) all += text;
+    return all;
+}
+
+// Small budgets, so that the tests are quick; the paths are the same.
+LoadOptions small() {
+    LoadOptions options;
+    options.budgets.loop_turns = 20'000;
+    options.budgets.macro_calls = 20'000;
+    options.budgets.tokens = 2'000'000;
+    return options;
+}
+
+TEST(Limits, Nesting) {
+    const int n = 100'000;
+    const std::string deep[] = {
+        "sphere " + repeated("{ pigment ", n),
+        "union " + repeated("{ union ", n),
+        repeated("{", n),
+        "#declare A = " + repeated("(", n) + "1" + repeated(")", n) + ";",
+        "#declare A = " + repeated("-", n) + "1;",
+        "#declare A = " + repeated("1 ? ", n) + "1;",
+        "#declare A = " + repeated("<", n) + "1;",
+        "#declare A = " + repeated("sin(", n) + "1;",
+        "#macro M(X) X #end #declare A = " + repeated("M(", n) + "1;",
+    };
+    for (const std::string& text : deep) EXPECT_NE(first_error(text), "") << text.substr(0, 40);
+    EXPECT_EQ(run(repeated("#if (1) ", n) + repeated("#end ", n)), "");
+    EXPECT_EQ(run("#declare A = " + repeated("(", 300) + "7" + repeated(")", 300) + "; #debug str(A, 0, 0)"),
+              "7");
+}
+
+TEST(Limits, Loops) {
+    EXPECT_EQ(first_error("#while (1) #end", small()),
+              "test.pnr:1:1: error: the scene's loops turn more than 20000 times");
+    EXPECT_EQ(first_error("#for (I, 0, 1e12) #end", small()),
+              "test.pnr:1:1: error: the scene's loops turn more than 20000 times");
+    EXPECT_EQ(first_error("#declare A = sum(i, 1, 1e9, 1);", small()),
+              "test.pnr:1:14: error: the scene's loops turn more than 20000 times");
+    EXPECT_NE(first_error("#while (1) sphere { Foo } #end", small()), "");
+}
+
+TEST(Limits, Macros) {
+    EXPECT_EQ(first_error("#macro M() M() #end M()"),
+              "test.pnr:1:12: error: macro `M` is called inside itself or others more than 300 deep");
+    EXPECT_NE(first_error("#macro M(X) #local A = M(X + 1); A #end #declare B = M(0);"), "");
+    EXPECT_EQ(first_error("#macro M(X) #if (X < 200) M(X + 1) M(X + 1) #end #end M(0)", small()),
+              "test.pnr:1:27: error: macros are called more than 20000 times");
+}
+
+TEST(Limits, Memory) {
+    EXPECT_EQ(first_error("#declare A = array[1e9];"),
+              "test.pnr:1:20: error: the array has more than 4000000 elements");
+    EXPECT_EQ(first_error("#declare A = array[100000][100000];"),
+              "test.pnr:1:28: error: the array has more than 4000000 elements");
+    EXPECT_EQ(first_error("#declare S = \"0123456789\"; #while (1) #declare S = concat(S, S); #end"),
+              "test.pnr:1:52: error: the string is longer than 1000000 characters");
+    EXPECT_EQ(first_error("#declare A = array[1]; #while (1) #declare A[0] = A; #end", small()),
+              "test.pnr:1:44: error: arrays in arrays go deeper than 16");
+    // what is given up is given back: 1000 arrays of 100,000 elements, one after the other
+    EXPECT_EQ(run("#for (I, 1, 1000) #declare A = array[100000]; #end"), "");
+}
+
+TEST(Limits, Includes) {
+    const fs::path folder = fs::path(testing::TempDir()) / "pnr_limits";
+    fs::create_directories(folder);
+    std::ofstream(folder / "self.pnr") << "#include \"self.pnr\"\n";
+    const LoadResult result = load_scene(folder / "self.pnr", {});
+    ASSERT_FALSE(result.diagnostics.empty());
+    EXPECT_EQ(result.diagnostics[0].message, "#include goes deeper than 64 files");
+}
+
+TEST(Limits, ReadsOnlyItsFolderAndTheLibrary) {
+    const fs::path folder = fs::path(testing::TempDir()) / "pnr_folders";
+    fs::create_directories(folder / "scene/sub");
+    fs::create_directories(folder / "library");
+    std::ofstream(folder / "secret.inc") << "#declare Secret = 1;\n";
+    std::ofstream(folder / "scene/sub/in.inc") << "#declare In = 1;\n";
+    std::ofstream(folder / "library/lib.inc") << "#declare Lib = 1;\n";
+    const auto refused = [&](const std::string& include, const LoadOptions& options = {}) {
+        std::ofstream(folder / "scene/a.pnr") << "#include \"" << include << "\"\n";
+        const LoadResult result = load_scene(folder / "scene/a.pnr", options);
+        return !result.scene.has_value();
+    };
+    EXPECT_FALSE(refused("sub/in.inc"));
+    EXPECT_FALSE(refused("colors.inc")); // embedded
+    EXPECT_TRUE(refused("../secret.inc"));
+    EXPECT_TRUE(refused("sub/../../secret.inc"));
+    EXPECT_TRUE(refused((folder / "secret.inc").string()));
+    EXPECT_TRUE(refused("/etc/passwd"));
+    EXPECT_TRUE(refused("lib.inc"));
+    LoadOptions options;
+    options.library = {folder / "library"};
+    EXPECT_FALSE(refused("lib.inc", options));
+    EXPECT_FALSE(refused((folder / "library/lib.inc").string(), options));
+    EXPECT_TRUE(refused("../secret.inc", options));
+}
+
+TEST(Limits, Bytes) {
+    std::string bytes;
+    for (int i = 0; i < 20'000; ++i) bytes += static_cast<char>((i * 7919) % 256);
+    EXPECT_NE(first_error(bytes), "");
+}
+
+// Every prefix that ends at a token is read or refused, and never without a place.
+void try_prefixes(const std::string& text, const std::string& name) {
+    Words words;
+    std::vector<std::string> strings;
+    Sources sources;
+    sources.add(name, text);
+    for (const Token& token : lex(sources.files[0], 0, words, strings)) {
+        const LoadResult result = load_scene_text(text.substr(0, token.span.end), name, {});
+        EXPECT_EQ(result.scene.has_value(),
+                  std::none_of(result.diagnostics.begin(), result.diagnostics.end(),
+                               [](const Diagnostic& d) { return d.severity == Severity::error; }))
+            << name << " up to byte " << token.span.end;
+    }
+}
+
+TEST(Limits, EveryPrefixIsReadOrRefused) {
+    for (const char* folder : {"scenes", "scenes/paper", "tests/parser/errors"}) {
+        for (const auto& entry : fs::directory_iterator(fs::path(PNR_SOURCE_DIR) / folder)) {
+            if (entry.path().extension() != ".pnr" || entry.file_size() > 4096) continue;
+            if (entry.path().stem().string().starts_with("endless"))
+                continue; // ends by the budget, each time
+            std::ifstream stream(entry.path(), std::ios::binary);
+            try_prefixes({std::istreambuf_iterator<char>(stream), {}}, entry.path().string());
+        }
+    }
+}
+
+} // namespace
+} // namespace pnr::test
