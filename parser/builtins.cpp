@@ -57,8 +57,9 @@ double truncate(double x) { return std::trunc(x); }
 double to_radians(double x) { return x * pi / 180; }
 double to_degrees(double x) { return x * 180 / pi; }
 
-// Functions of one number that are defined everywhere.
-Unary total_function(Keyword word) {
+} // namespace
+
+double (*total_function(Keyword word))(double) {
     switch (word) {
     case "abs"_kw:
         return std::fabs;
@@ -94,6 +95,8 @@ Unary total_function(Keyword word) {
         return nullptr;
     }
 }
+
+namespace {
 
 double checked(Parser& p, const Token& name, double argument, double result) {
     if (!std::isfinite(result))

@@ -4,6 +4,7 @@
 #include "parser/blocks.h"
 #include "parser/color_space.h"
 #include "parser/expression.h"
+#include "parser/function.h"
 
 #include <fmt/format.h>
 
@@ -39,6 +40,13 @@ const Value* sample(const ArrayValue& array) {
             return found;
     }
     return nullptr;
+}
+
+// A function's name with `(` behind it, the name being in the buffer.
+bool is_call(Parser& p, const Value& value) {
+    if (!std::holds_alternative<std::shared_ptr<const Function>>(value.data)) return false;
+    const TokenFrame& frame = p.in.frames.back();
+    return frame.position < frame.end && is(frame.tokens[frame.position], '(');
 }
 
 // What the identifier that is next stands for; for an array with a subscript behind it: some element, for its
@@ -120,7 +128,12 @@ VectorValue parse_parentheses(Parser& p) {
 VectorValue parse_word(Parser& p) {
     const Token token = peek(p);
     const auto word = static_cast<Keyword>(token.symbol);
-    if (lookup(p.in, token.symbol)) return operand_from(p, take_variable(p), token);
+    if (lookup(p.in, token.symbol)) {
+        const Value& value = take_variable(p);
+        if (const auto* function = std::get_if<std::shared_ptr<const Function>>(&value.data))
+            return scalar(call_function(p, token, std::shared_ptr<const Function>(*function)));
+        return operand_from(p, value, token);
+    }
     if (is_keyword(token.symbol)) {
         if (at_color(p)) return color_expression(p);
         if (is_number_builtin(word)) {
@@ -229,7 +242,7 @@ bool at_expression(Parser& p) {
         return token.symbol == '<' || token.symbol == '(' || token.symbol == '-' || token.symbol == '+' ||
                token.symbol == '!';
     if (token.kind != TokenKind::word) return false;
-    if (const Value* value = shown_value(p, token)) return is_numeric(*value);
+    if (const Value* value = shown_value(p, token)) return is_numeric(*value) || is_call(p, *value);
     return is_keyword(token.symbol) && (is_number_builtin(static_cast<Keyword>(token.symbol)) || at_color(p));
 }
 
@@ -438,7 +451,9 @@ Value parse_value(Parser& p) {
     if (token.kind == TokenKind::string) return Value{parse_string(p)};
     if (token.kind == TokenKind::word) {
         if (const Value* value = shown_value(p, token)) {
-            if (!is_numeric(*value)) return take_variable(p);
+            if (!is_numeric(*value) && !is_call(p, *value)) return take_variable(p);
+        } else if (is(token, "function"_kw)) {
+            return Value{parse_function(p)};
         } else if (is(token, "array"_kw)) {
             return array_value(p);
         } else if (at_string(p)) {

@@ -216,7 +216,7 @@ std::string invalid_character(char c) {
 void lex_punctuation(Lexer& lexer) {
     const char* from = lexer.at;
     const char c = *lexer.at++;
-    if (std::strchr("{}()[]<>,;:.?=!+-*/&|", c) == nullptr || c == '\0') {
+    if (std::strchr("{}()[]<>,;:.?=!+-*/&|^", c) == nullptr || c == '\0') {
         // A run of unreadable bytes is one error.
         while (lexer.at < lexer.end && *lexer.at == c) ++lexer.at;
         add_invalid(lexer, from, invalid_character(c));

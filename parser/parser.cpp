@@ -238,6 +238,8 @@ const char* type_name(const Value& value) {
         return "array";
     case 6:
         return "macro";
+    case 7:
+        return "function";
     default:
         break;
     }

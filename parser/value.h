@@ -12,10 +12,11 @@
 
 namespace pnr {
 
-// POV-Ray's vectors and colours are one thing in expressions: 1 to 5 numbers. A colour is <r, g, b, filter, transmit>.
+// POV-Ray's vectors and colours are one thing in expressions: 1 to 5 numbers. A colour is <r, g, b, filter,
+// transmit>.
 struct VectorValue {
     double v[5] = {0, 0, 0, 0, 0};
-    int size = 3; // 1 only inside the evaluator: a scalar
+    int size = 3;          // 1 only inside the evaluator: a scalar
     bool is_color = false; // made by a colour expression
 };
 
@@ -34,23 +35,27 @@ struct SaidMaterial {
     std::optional<Texture> texture;
     std::optional<Interior> interior;
 };
-// A block of POV-Ray's that we know and lack (fog, normal, media ...): it can be declared and named, and means nothing.
+// A block of POV-Ray's that we know and lack (fog, normal, media ...): it can be declared and named, and
+// means nothing.
 struct SkippedBlock {
     std::string word;
 };
 
-struct Macro; // expander.h
+struct Macro;    // expander.h
+struct Function; // function.h
 
 // Blocks that can be declared; copied on use, heavy data (meshes) is shared inside.
-using DeclaredBlock = std::variant<Object, Texture, Pigment, Finish, Interior, LightSource, Camera, Transform, PaintWord,
-                                   ColorMap, SaidMaterial, SkippedBlock>;
+using DeclaredBlock = std::variant<Object, Texture, Pigment, Finish, Interior, LightSource, Camera, Transform,
+                                   PaintWord, ColorMap, SaidMaterial, SkippedBlock>;
 
 struct Value {
     std::variant<std::monostate, double, VectorValue, std::string, std::shared_ptr<ArrayValue>,
-                 std::shared_ptr<const DeclaredBlock>, std::shared_ptr<const Macro>>
+                 std::shared_ptr<const DeclaredBlock>, std::shared_ptr<const Macro>,
+                 std::shared_ptr<const Function>>
         data;
 };
 
-const char* type_name(const Value& value); // "number", "vector", "colour", "string", "array", "object", "texture" ...
+const char*
+type_name(const Value& value); // "number", "vector", "colour", "string", "array", "object", "texture" ...
 
 } // namespace pnr
