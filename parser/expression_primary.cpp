@@ -192,11 +192,23 @@ VectorValue parse_primary(Parser& p) {
 // ---- identifiers
 // ----------------------------------------------------------------------------------------------------
 
+namespace {
+
+// Looks at the token as it stands: were the frame's end passed to find a `[`, a macro's local array would be
+// gone.
+bool at_subscript(const Parser& p) {
+    if (p.in.buffered) return is(p.in.buffer, '[');
+    const TokenFrame& frame = p.in.frames.back();
+    return frame.position < frame.end && is(frame.tokens[frame.position], '[');
+}
+
+} // namespace
+
 std::pair<std::shared_ptr<ArrayValue>, std::size_t>
 take_subscripts(Parser& p, const Token& name, const std::shared_ptr<ArrayValue>& array) {
     std::size_t element = 0;
     for (std::size_t d = 0; d < array->dimensions.size(); ++d) {
-        if (!is(peek_operator(p), '['))
+        if (!at_subscript(p))
             fail(p, name,
                  fmt::format("`{}` has {} dimension{}: {} needed behind it", token_text(p, name, false),
                              array->dimensions.size(), array->dimensions.size() == 1 ? "" : "s",
@@ -222,7 +234,7 @@ const Value& take_variable(Parser& p) {
     const Value* value = lookup(p.in, name.symbol);
     if (!value) unknown_identifier(p, name);
     const auto* array = std::get_if<std::shared_ptr<ArrayValue>>(&value->data);
-    if (!array || !is(peek_operator(p), '[')) return *value;
+    if (!array || !at_subscript(p)) return *value;
     std::shared_ptr<ArrayValue> inside = *array;
     for (;;) {
         const auto [elements, element] = take_subscripts(p, name, inside);
@@ -230,7 +242,7 @@ const Value& take_variable(Parser& p) {
         if (found.data.index() == 0)
             fail(p, name, fmt::format("this element of `{}` has no value yet", token_text(p, name, false)));
         const auto* deeper = std::get_if<std::shared_ptr<ArrayValue>>(&found.data);
-        if (!deeper || !is(peek_operator(p), '[')) return found;
+        if (!deeper || !at_subscript(p)) return found;
         inside = *deeper;
     }
 }

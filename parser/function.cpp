@@ -218,7 +218,7 @@ void compile_call(Compiler& c, const std::shared_ptr<const Function>& callee, co
         ++count;
     } while (accept(c.p, ','));
     close_arguments(c.p, name);
-    if (count != callee->parameters)
+    if (count != callee->parameters && callee->unsupported.empty())
         fail(c.p, name,
              fmt::format("`{}` takes {} arguments, {} are given", token_text(c.p, name, false),
                          callee->parameters, count));

@@ -77,6 +77,12 @@ TEST(Directive, Macros) {
         "");
 }
 
+TEST(Directive, MacrosGiveArrays) {
+    EXPECT_EQ(run("#macro M(N) #local A = array[N] #for (I, 0, N - 1) #local A[I] = I * I; #end A #end "
+                  "#declare B = M(5) #debug str(B[4] + dimension_size(B, 1), 0, 0)"),
+              "21");
+}
+
 TEST(Directive, MacroArgumentsAreReferences) {
     EXPECT_EQ(run("#macro Set(P) #declare P = 42; #end Set(Q) #debug str(Q, 0, 0)"), "42");
     EXPECT_EQ(run("#macro Set(P) #declare P = 42; #end #declare A = array[2] {1, 2} Set(A[1]) #debug "
