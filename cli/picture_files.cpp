@@ -81,19 +81,23 @@ std::vector<unsigned char> make_exr(const Scene& scene, const Rendering& r,
 
 } // namespace
 
+void check_writable(const fs::path& file) {
+    std::error_code ignored;
+    const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+    const auto refuse = [&](const std::string& why) {
+        throw FileError(fmt::format("cannot write `{}`: {}", file.string(), why));
+    };
+    if (!fs::is_directory(folder, ignored)) refuse(fmt::format("there is no folder `{}`", folder.string()));
+    if (fs::is_directory(file, ignored)) refuse("it is a folder");
+    const fs::path& touched = fs::exists(file, ignored) ? file : folder;
+    if (::access(touched.c_str(), W_OK) != 0) refuse(std::strerror(errno));
+}
+
 void check_output(const fs::path& output) {
     if (output == "-") return;
     if (!is_png(output) && !is_exr(output))
         throw UsageError(fmt::format("-o {}: a picture's name ends in .png or .exr", output.string()));
-    std::error_code ignored;
-    const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
-    const auto refuse = [&](const std::string& why) {
-        throw FileError(fmt::format("cannot write `{}`: {}", output.string(), why));
-    };
-    if (!fs::is_directory(folder, ignored)) refuse(fmt::format("there is no folder `{}`", folder.string()));
-    if (fs::is_directory(output, ignored)) refuse("it is a folder");
-    const fs::path& touched = fs::exists(output, ignored) ? output : folder;
-    if (::access(touched.c_str(), W_OK) != 0) refuse(std::strerror(errno));
+    check_writable(output);
 }
 
 void write_picture(const Scene& scene, const Rendering& r, const std::vector<std::string>& aovs,

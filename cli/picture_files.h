@@ -10,8 +10,9 @@
 
 namespace pnr {
 
-// Throws UsageError for an ending that is neither .png nor .exr, and FileError if the folder is missing or
-// must not be written: better now than after an hour. "-" is standard output.
+// Throws FileError if a file's folder is missing or it must not be written: better now than after an hour.
+void check_writable(const std::filesystem::path& file);
+// The same for a picture, and UsageError for an ending that is neither .png nor .exr. "-" is standard output.
 void check_output(const std::filesystem::path& output);
 
 // Throws FileError. Of a rendering that has no picture yet nothing is written.

@@ -92,6 +92,8 @@ int render_frame(const Options& options, const AnimationFrame& frame) {
     const Files files = files_of(options, frame);
     const auto& pictures = files.pictures;
     for (const fs::path& picture : pictures) check_output(picture);
+    for (const fs::path& file : {files.stats, options.save_photons})
+        if (!file.empty() && file != "-") check_writable(file);
     if (options.skip_existing && std::all_of(pictures.begin(), pictures.end(), exists)) return exit_done;
     if (options.no_overwrite && std::any_of(pictures.begin(), pictures.end(), exists))
         throw FileError("a picture of that name exists already (--no-overwrite)");

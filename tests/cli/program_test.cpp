@@ -70,6 +70,7 @@ TEST(Program, ExitCodesTellWhoIsToBlame) {
     EXPECT_EQ(run_pnr(folder, {"check", "absent.pnr"}).code, 4);
     EXPECT_EQ(run_pnr(folder, {"render", "a.pnr", "-W", "8", "-o", "no/such/folder.png"}).code, 4);
     EXPECT_EQ(run_pnr(folder, {"render", "a.pnr", "-W", "8", "--stats", "/dev/full"}).code, 4);
+    EXPECT_EQ(run_pnr(folder, {"render", "a.pnr", "--stats", "no/such/folder.json"}).code, 4);
     EXPECT_EQ(run_pnr(folder, {"render", "a.pnr", "-W", "8", "--load-photons", "absent"}).code, 4);
 }
 
