@@ -23,6 +23,8 @@ constexpr float enough = 0.7f;
 // Cosine of the largest angle between a record's normal and the point's.
 constexpr float least_aligned = 0.9f;
 constexpr int most_levels = 4;
+// Weight of a record where it is not to be trusted, if no other is.
+constexpr float last_resort = 1e-3f;
 // One in so many photons gets its irradiance computed beforehand, from so many neighbours.
 constexpr std::size_t lit_stride = 4;
 constexpr int lit_neighbours = 64;
@@ -400,13 +402,15 @@ FieldIrradiance field_irradiance(const IrradianceField& field, const World& worl
                 continue;
             const Record& record = record_of(field, level, near.index, world, map);
             const float own = std::min(reach, last ? std::max(record.reach, level.spacing) : record.reach);
-            if (!(distance < own)) continue;
-            const float fall = 1 - distance / own, turn = (aligned - least_aligned) / (1 - least_aligned);
-            blend.add(record, site, p, n, share * fall * fall * turn);
+            // Beyond its own reach a record still outweighs nothing: in the dark under a round thing no
+            // photon marks a site, and the density of the few there would show their places.
+            const float fall = std::max(0.0f, 1 - distance / own), far = 1 - distance / reach;
+            const float turn = (aligned - least_aligned) / (1 - least_aligned);
+            blend.add(record, site, p, n, share * turn * (fall * fall + last_resort * far * far));
         }
     }
     if (!(blend.weight > 0)) return {};
-    return {blend.irradiance(), std::min(1.0f, blend.weight / (0.1f * enough))};
+    return {blend.irradiance(), std::min(1.0f, blend.weight / (0.01f * last_resort))};
 }
 
 std::int64_t record_count(const IrradianceField& field) { return field.records; }
