@@ -21,7 +21,6 @@ void copy_brush(const PaintStyle& from, PaintStyle& to) {
     to.warm = from.warm;
     to.relief = from.relief;
     to.bristle = from.bristle;
-    to.bleed = from.bleed;
     to.gaussian_first = from.gaussian_first;
     to.gaussian_second = from.gaussian_second;
     to.step = from.step;

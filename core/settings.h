@@ -51,8 +51,7 @@ struct RenderSettings {
     bool prune = true;   // --no-prune: take the unpruned path everywhere
 };
 
-// ---- painting
-// -------------------------------------------------------------------------------------------------
+// ---- painting -------------------------------------------------------------------------------------------------
 
 // r, r^3, exp(-(r/c)^2). In space r is itself the biharmonic function [Carr 2001], so the word `linear` means
 // biharmonic too.
@@ -68,8 +67,8 @@ struct Seed {
     SourceRef said_at;
 };
 
-// One coat of strokes, `layer { length l  cell c  noise l, ab  edge e  opacity o  blur b  keep k [, detail d]
-// }` inside `ilic`. Coats are painted in the order of the text, each over the ones before.
+// One coat of strokes, `layer { length l  cell c  noise l, ab  edge e  opacity o  blur b  keep k [, plain] }` inside
+// `ilic`. Coats are painted in the order of the text, each over the ones before.
 struct PaintLayer {
     double length = 26;             // of the whole ILIC path, both sides
     double cell = 4.5;              // width of a noise cell
@@ -78,9 +77,8 @@ struct PaintLayer {
     double edge = 40;               // 0: the paper's mean; 40: one cell wins the path
     double opacity = 1;             // of a stroke over the coats below
     double blur = 0;                // the strokes' colours are first blurred by this standard deviation
-    double keep = 0;                // this share of the strokes is left out everywhere ...
-    double keep_plain = 0; // ... and this share more where the picture is plain; none of it at silhouettes
-                           // and lightness edges
+    double keep = 0;       // cells of a priority below this lay no stroke ...
+    double keep_plain = 0; // ... and below the sum of both where the picture is plain, away from silhouettes and edges
 };
 
 // All that `npr { ... }` can say, with the defaults of design.md section 3. Lengths are in pixels of a
@@ -102,15 +100,12 @@ struct PaintStyle {
     double noise_chroma = 0.025;    // ... and a, b
     double edge = 40;               // 0: the paper's mean; 40: one cell wins the path
     std::vector<PaintLayer> layers; // `layer { ... }` items; empty: one coat of the five values above
-    double contrast =
-        1; // `tone { contrast c  saturation s  warm w }`: Oklab lightness about the object's median,
-    double saturation = 1; // chroma,
-    double warm = 0;       // and how far lights go to yellow and shadows to blue: all before the painting
-    double relief = 0;     // `relief h [, b]`: strokes lit as ridges of paint from the top left,
-    double bristle = 0;    // and the lightness of bristle marks along them
-    double bleed = 0;      // `bleed b`: how far strokes reach over the silhouette
-    std::optional<double> gaussian_first,
-        gaussian_second;      // windows of the field's smoothing; unset: field_windows()
+    // `tone { contrast c  saturation s  warm w }`, done to the colours before the painting: Oklab lightness about the
+    // object's median, chroma, and how far lights go to yellow and shadows to blue.
+    double contrast = 1, saturation = 1, warm = 0;
+    double relief = 0;  // `relief r` inside `ilic`: strokes lit as ridges of paint from the top left
+    double bristle = 0; // `bristle b`: standard deviation in Oklab L of the brush's marks along the strokes
+    std::optional<double> gaussian_first, gaussian_second; // windows of the field's smoothing; unset: field_windows()
     double step = 0.5;        // of the path, in pixels
     double mix = 1;           // 0 photoreal .. 1 painted
     bool box_weights = false; // paper_mode: box instead of Hann

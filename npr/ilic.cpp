@@ -6,6 +6,7 @@
 #include "npr/direction_field.h"
 #include "npr/masked_blur.h"
 #include "npr/paint.h"
+#include "npr/relief.h"
 #include "npr/streamline.h"
 #include "npr/tone.h"
 
@@ -304,6 +305,58 @@ void paint_coat(Work& work, const PaintLayer& coat, int coat_number, const Spars
     });
 }
 
+// ---- the brush's own marks
+// ------------------------------------------------------------------------------------------
+
+constexpr double bristle_length = 24; // of a bristle's mark, pixels at 512
+constexpr double bristle_width = 1.2;
+constexpr double bristle_height = 0.12; // of a mark of one standard deviation, in strokes
+constexpr int bristle_coat = 1000;      // its cells are no coat's
+
+// Fine noise drawn out along the strokes, unit variance, on the canvas.
+Image<float> make_bristles(Work& work, const SparseMap& sparse, const Regions& regions, std::uint32_t label) {
+    PaintLayer hairs;
+    hairs.edge = 0;
+    const double cell = scaled(bristle_width, work.picture_height);
+    const std::vector<CellRecord> records =
+        make_site_cells(work, hairs, work.toned, sparse, regions, label, cell, bristle_coat);
+    const double step = std::min(scaled(work.style.step, work.picture_height), 1.0) * work.scale;
+    const Walk walk = make_walk(scaled(bristle_length, work.picture_height) * work.scale, step, false);
+    const float gain = noise_gain(work, walk, records);
+    Image<float> marks(work.mask.width * work.scale, work.mask.height * work.scale, 0.0f);
+    for_each_canvas_row(work, [&](int x, int y, std::int64_t) {
+        marks.at(x, y) =
+            gain *
+            convolve_at(work.canvas, walk, records, x + work.canvas.rim, y + work.canvas.rim).deviates.x;
+    });
+    return marks;
+}
+
+// Bristle marks and relief, added to the lightness.
+void finish_surface(Work& work, const SparseMap& sparse, const Regions& regions, std::uint32_t label,
+                    std::vector<Painted>& painted) {
+    const PaintStyle& style = work.style;
+    if (style.paper_mode || (style.bristle == 0 && style.relief == 0)) return;
+    const Image<float> marks = make_bristles(work, sparse, regions, label);
+    Image<float> change(marks.width, marks.height, 0.0f);
+    if (style.relief != 0) {
+        Image<float> height(marks.width, marks.height);
+        Image<std::uint8_t> mask(marks.width, marks.height);
+        for (int y = 0; y < marks.height; ++y) {
+            for (int x = 0; x < marks.width; ++x) {
+                const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(marks.width) +
+                                      static_cast<std::size_t>(x);
+                mask.pixels[i] = work.mask.at(x / work.scale, y / work.scale);
+                height.pixels[i] = painted[i].height + static_cast<float>(bristle_height) * marks.pixels[i];
+            }
+        }
+        change =
+            light_relief(std::move(height), mask, style.relief, scaled(1, work.picture_height) * work.scale);
+    }
+    for (std::size_t i = 0; i < painted.size(); ++i)
+        painted[i].paint.x += change.pixels[i] + static_cast<float>(style.bristle) * marks.pixels[i];
+}
+
 // The mean of the canvas pixels of each picture pixel, in light.
 Image<Color> finish_region(const Work& work, const std::vector<Painted>& painted) {
     Image<Color> light(work.mask.width, work.mask.height, Color(0));
@@ -345,6 +398,7 @@ Image<Color> paint_region(const InformativeMap& informative, const SparseMap& sp
     std::vector<Painted> painted(work.mask.pixels.size() * static_cast<std::size_t>(work.scale * work.scale));
     for (std::size_t i = 0; i < coats.size(); ++i)
         paint_coat(work, coats[i], static_cast<int>(i), sparse, regions, label, painted);
+    finish_surface(work, sparse, regions, label, painted);
     return finish_region(work, painted);
 }
 
