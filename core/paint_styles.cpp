@@ -16,6 +16,7 @@ void copy_brush(const PaintStyle& from, PaintStyle& to) {
     to.noise_chroma = from.noise_chroma;
     to.edge = from.edge;
     to.layers = from.layers;
+    to.size = from.size;
     to.contrast = from.contrast;
     to.saturation = from.saturation;
     to.warm = from.warm;
@@ -27,66 +28,61 @@ void copy_brush(const PaintStyle& from, PaintStyle& to) {
     to.box_weights = from.box_weights;
 }
 
+PaintLayer layer(double length, double cell, double lightness, double chroma) {
+    PaintLayer made;
+    made.length = length;
+    made.cell = cell;
+    made.noise_lightness = lightness;
+    made.noise_chroma = chroma;
+    return made;
+}
+
+PaintLayer blurred(PaintLayer made, double blur) {
+    made.blur = blur;
+    return made;
+}
+
+// A coat that lies over others and leaves these shares of them bare.
+PaintLayer over(PaintLayer made, double opacity, double bare, double bare_plain) {
+    made.opacity = opacity;
+    made.bare = bare;
+    made.bare_plain = bare_plain;
+    return made;
+}
+
+PaintLayer soft(PaintLayer made, double edge) {
+    made.edge = edge;
+    return made;
+}
+
 PaintStyle oil() {
     PaintStyle s;
-    s.layers = {
-        {.length = 39, .cell = 9, .noise_lightness = 0.036, .noise_chroma = 0.020, .blur = 3},
-        {.length = 30,
-         .cell = 5,
-         .noise_lightness = 0.042,
-         .noise_chroma = 0.028,
-         .opacity = 0.85,
-         .keep = 0.3,
-         .keep_plain = 0.5},
-        {.length = 16,
-         .cell = 3,
-         .noise_lightness = 0.036,
-         .noise_chroma = 0.020,
-         .opacity = 0.9,
-         .keep = 0.45,
-         .keep_plain = 0.6},
-    };
+    s.layers = {blurred(layer(42, 9, 0.036, 0.020), 3), over(layer(32, 5.5, 0.040, 0.026), 0.9, 0.10, 0.55),
+                over(layer(18, 3, 0.034, 0.020), 0.9, 0.20, 0.92)};
     s.contrast = 1.3;
     s.saturation = 1.25;
     s.warm = 0.03;
     s.relief = 0.12;
-    s.bristle = 0.015;
+    s.bristle = 0.012;
     return s;
 }
 
 PaintStyle impasto() {
     PaintStyle s;
-    s.layers = {
-        {.length = 44, .cell = 12, .noise_lightness = 0.040, .noise_chroma = 0.026, .blur = 3},
-        {.length = 34,
-         .cell = 7.5,
-         .noise_lightness = 0.046,
-         .noise_chroma = 0.032,
-         .opacity = 0.95,
-         .keep = 0.25,
-         .keep_plain = 0.35},
-    };
+    s.layers = {blurred(layer(46, 12, 0.040, 0.026), 3),
+                over(layer(36, 7.5, 0.044, 0.030), 0.95, 0.15, 0.60)};
     s.contrast = 1.3;
     s.saturation = 1.3;
     s.warm = 0.03;
     s.relief = 0.22;
-    s.bristle = 0.025;
+    s.bristle = 0.02;
     return s;
 }
 
 PaintStyle pastel() {
     PaintStyle s;
-    s.layers = {
-        {.length = 22, .cell = 6, .noise_lightness = 0.030, .noise_chroma = 0.022, .edge = 10, .blur = 2},
-        {.length = 14,
-         .cell = 3,
-         .noise_lightness = 0.036,
-         .noise_chroma = 0.028,
-         .edge = 14,
-         .opacity = 0.6,
-         .keep = 0.35,
-         .keep_plain = 0.3},
-    };
+    s.layers = {soft(blurred(layer(22, 6, 0.030, 0.022), 2), 10),
+                over(soft(layer(14, 3, 0.036, 0.028), 14), 0.6, 0.2, 0.6)};
     s.contrast = 1.1;
     s.saturation = 1.15;
     s.warm = 0.02;
@@ -95,16 +91,7 @@ PaintStyle pastel() {
 
 PaintStyle fur() {
     PaintStyle s;
-    s.layers = {
-        {.length = 40, .cell = 4, .noise_lightness = 0.040, .noise_chroma = 0.012, .blur = 2},
-        {.length = 34,
-         .cell = 2.2,
-         .noise_lightness = 0.055,
-         .noise_chroma = 0.014,
-         .opacity = 0.85,
-         .keep = 0.3,
-         .keep_plain = 0.2},
-    };
+    s.layers = {blurred(layer(40, 4, 0.040, 0.012), 2), over(layer(34, 2.2, 0.055, 0.014), 0.85, 0.3, 0.5)};
     s.contrast = 1.2;
     s.relief = 0.05;
     return s;

@@ -67,7 +67,7 @@ struct Seed {
     SourceRef said_at;
 };
 
-// One coat of strokes, `layer { length l  cell c  noise l, ab  edge e  opacity o  blur b  keep k [, plain] }` inside
+// One coat of strokes, `layer { length l  cell c  noise l, ab  edge e  opacity o  blur b  bare k [, plain] }` inside
 // `ilic`. Coats are painted in the order of the text, each over the ones before.
 struct PaintLayer {
     double length = 26;             // of the whole ILIC path, both sides
@@ -77,8 +77,8 @@ struct PaintLayer {
     double edge = 40;               // 0: the paper's mean; 40: one cell wins the path
     double opacity = 1;             // of a stroke over the coats below
     double blur = 0;                // the strokes' colours are first blurred by this standard deviation
-    double keep = 0;       // cells of a priority below this lay no stroke ...
-    double keep_plain = 0; // ... and below the sum of both where the picture is plain, away from silhouettes and edges
+    double bare = 0;       // share of the surface that is left as the coats below have it ...
+    double bare_plain = 0; // ... and the share where the picture is plain, away from silhouettes and lightness edges
 };
 
 // All that `npr { ... }` can say, with the defaults of design.md section 3. Lengths are in pixels of a
@@ -100,11 +100,12 @@ struct PaintStyle {
     double noise_chroma = 0.025;    // ... and a, b
     double edge = 40;               // 0: the paper's mean; 40: one cell wins the path
     std::vector<PaintLayer> layers; // `layer { ... }` items; empty: one coat of the five values above
+    double size = 1; // of all strokes: multiplies every coat's length, cell and blur
     // `tone { contrast c  saturation s  warm w }`, done to the colours before the painting: Oklab lightness about the
     // object's median, chroma, and how far lights go to yellow and shadows to blue.
     double contrast = 1, saturation = 1, warm = 0;
-    double relief = 0;  // `relief r` inside `ilic`: strokes lit as ridges of paint from the top left
-    double bristle = 0; // `bristle b`: standard deviation in Oklab L of the brush's marks along the strokes
+    double relief = 0;  // `relief r [, b]`: strokes lit as ridges of paint from the top left,
+    double bristle = 0; // and the standard deviation in Oklab L of the brush's marks along the strokes
     std::optional<double> gaussian_first, gaussian_second; // windows of the field's smoothing; unset: field_windows()
     double step = 0.5;        // of the path, in pixels
     double mix = 1;           // 0 photoreal .. 1 painted

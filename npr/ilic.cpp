@@ -44,14 +44,28 @@ struct Work { // all that is fixed for one region
 };
 
 std::vector<PaintLayer> coats_of(const PaintStyle& style) {
-    if (!style.layers.empty()) return style.layers;
-    PaintLayer coat;
-    coat.length = style.length;
-    coat.cell = style.cell;
-    coat.noise_lightness = style.noise_lightness;
-    coat.noise_chroma = style.noise_chroma;
-    coat.edge = style.edge;
-    return {coat};
+    std::vector<PaintLayer> coats = style.layers;
+    if (coats.empty()) {
+        PaintLayer coat;
+        coat.length = style.length;
+        coat.cell = style.cell;
+        coat.noise_lightness = style.noise_lightness;
+        coat.noise_chroma = style.noise_chroma;
+        coat.edge = style.edge;
+        coats.push_back(coat);
+    }
+    for (PaintLayer& coat : coats) {
+        coat.length *= style.size;
+        coat.cell *= style.size;
+        coat.blur *= style.size;
+    }
+    return coats;
+}
+
+// Length of a step in canvas pixels: as asked, but never over a pixel of the picture, so that no gap is
+// missed.
+double canvas_step(const Work& work) {
+    return std::min(scaled(work.style.step, work.picture_height), 1.0) * work.scale;
 }
 
 // Directions once a region; the cells change with every coat.
@@ -218,42 +232,82 @@ Stroke convolve_at(const Canvas& canvas, const Walk& walk, const std::vector<Cel
             static_cast<float>(priority / weight)};
 }
 
-// By how much the noise must be raised so that its standard deviation after the convolution is the one asked
-// for: from the expected variance of the weighted means, over every fourth canvas pixel each way.
-float noise_gain(const Work& work, const Walk& walk, const std::vector<CellRecord>& records) {
-    constexpr float largest = 16;
+// What a coat comes to, from every fourth canvas pixel each way.
+struct CoatSample {
+    // By how much the noise must be raised so that its standard deviation after the convolution is the one
+    // asked for: from the expected variance of the weighted means.
+    float gain = 1;
+    std::vector<float>
+        priorities; // of the strokes lying there, sorted: a place in the list is a share of the area
+};
+
+// The priority below which the strokes on the given share of the area lie.
+float priority_below(const CoatSample& sample, float share) {
+    if (!(share > 0) || sample.priorities.empty()) return -1;
+    const auto place = static_cast<std::size_t>(share * static_cast<float>(sample.priorities.size()));
+    return place < sample.priorities.size() ? sample.priorities[place] : 2;
+}
+
+// The variance that the weighted mean of independent unit values keeps, and the mean priority.
+struct PathSample {
+    double variance = 1, priority = 0;
+};
+PathSample sample_path(const Canvas& canvas, const Walk& walk, const std::vector<CellRecord>& records, int x,
+                       int y, std::vector<std::pair<std::uint32_t, double>>& met) {
+    met.clear();
+    integrate_path(canvas, walk, x, y, [&](std::uint32_t cell, float run) {
+        const double w = static_cast<double>(run) * records[cell].weight;
+        const auto known =
+            std::find_if(met.begin(), met.end(), [&](const auto& m) { return m.first == cell; });
+        if (known != met.end())
+            known->second += w;
+        else
+            met.emplace_back(cell, w);
+    });
+    double total = 0, squares = 0, priority = 0;
+    for (const auto& [cell, w] : met) {
+        total += w;
+        squares += w * w;
+        priority += w * static_cast<double>(records[cell].priority);
+    }
+    if (!(total > 0)) return {1, static_cast<double>(records[canvas.at(x, y).cell].priority)};
+    return {squares / (total * total), priority / total};
+}
+
+CoatSample sample_coat(const Work& work, const Walk& walk, const std::vector<CellRecord>& records) {
+    constexpr float largest_gain = 16;
     const int rows = work.mask.height * work.scale, columns = work.mask.width * work.scale;
     const int stride = work.region.pixels * work.scale * work.scale > 4096 ? 4 : 1;
     const int sampled_rows = (rows + stride - 1) / stride;
-    std::vector<Vec2> sums(static_cast<std::size_t>(sampled_rows), Vec2(0)); // variance, count
+    struct Row {
+        double variance = 0;
+        std::vector<float> priorities;
+    };
+    std::vector<Row> by_row(static_cast<std::size_t>(sampled_rows));
     parallel_for(sampled_rows, 4, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
         std::vector<std::pair<std::uint32_t, double>> met;
-        for (std::int64_t row = begin; row < end; ++row) {
-            const int y = static_cast<int>(row) * stride;
+        for (std::int64_t r = begin; r < end; ++r) {
+            Row& row = by_row[static_cast<std::size_t>(r)];
+            const int y = static_cast<int>(r) * stride;
             for (int x = 0; x < columns; x += stride) {
                 if (work.mask.at(x / work.scale, y / work.scale) == 0) continue;
-                met.clear();
-                double total = 0;
-                integrate_path(work.canvas, walk, x + work.canvas.rim, y + work.canvas.rim,
-                               [&](std::uint32_t cell, float run) {
-                                   const double w = static_cast<double>(run) * records[cell].weight;
-                                   total += w;
-                                   for (auto& [known, sum] : met)
-                                       if (known == cell) {
-                                           sum += w;
-                                           return;
-                                       }
-                                   met.emplace_back(cell, w);
-                               });
-                double squares = 0;
-                for (const auto& [cell, w] : met) squares += w * w;
-                sums[static_cast<std::size_t>(row)] += Vec2(total > 0 ? squares / (total * total) : 1, 1);
+                const PathSample path =
+                    sample_path(work.canvas, walk, records, x + work.canvas.rim, y + work.canvas.rim, met);
+                row.variance += path.variance;
+                row.priorities.push_back(static_cast<float>(path.priority));
             }
         }
     });
-    Vec2 sum(0);
-    for (const Vec2 s : sums) sum += s;
-    return sum.x > 0 ? std::min(largest, static_cast<float>(std::sqrt(sum.y / sum.x))) : 1;
+    CoatSample sample;
+    double variance = 0;
+    for (const Row& row : by_row) {
+        variance += row.variance;
+        sample.priorities.insert(sample.priorities.end(), row.priorities.begin(), row.priorities.end());
+    }
+    std::sort(sample.priorities.begin(), sample.priorities.end());
+    const auto count = static_cast<double>(sample.priorities.size());
+    if (variance > 0) sample.gain = std::min(largest_gain, static_cast<float>(std::sqrt(count / variance)));
+    return sample;
 }
 
 // ---- coats
@@ -264,8 +318,8 @@ struct Painted { // a canvas pixel
     float height = 0;
 };
 
-// Strokes whose priority is under the threshold are left out; this is the width of the soft edge between.
-constexpr float keep_softness = 0.04f;
+// Where strokes begin to be left out their edge is this soft, in priority.
+constexpr float bare_softness = 0.01f;
 
 void paint_coat(Work& work, const PaintLayer& coat, int coat_number, const SparseMap& sparse,
                 const Regions& regions, std::uint32_t label, std::vector<Painted>& painted) {
@@ -276,26 +330,23 @@ void paint_coat(Work& work, const PaintLayer& coat, int coat_number, const Spars
     const std::vector<CellRecord> records =
         cell <= 1 ? make_pixel_cells(work, coat, base, coat_number)
                   : make_site_cells(work, coat, base, sparse, regions, label, cell, coat_number);
-    // A step never jumps over a pixel of the picture, so that no gap is missed.
-    const double step = std::min(scaled(work.style.step, height), 1.0) * work.scale;
-    const Walk walk = make_walk(scaled(coat.length, height) * work.scale, step, work.style.box_weights);
-    const bool noisy = coat.noise_lightness != 0 || coat.noise_chroma != 0;
-    const float gain =
-        noisy && !work.style.paper_mode && walk.count > 0 ? noise_gain(work, walk, records) : 1;
-    const Color noise =
-        gain * (work.style.paper_mode ? Color(static_cast<float>(coat.noise_lightness))
-                                      : Color(coat.noise_lightness, coat.noise_chroma, coat.noise_chroma));
-    const bool picky = coat.keep > 0 || coat.keep_plain > 0;
+    const Walk walk =
+        make_walk(scaled(coat.length, height) * work.scale, canvas_step(work), work.style.box_weights);
+    const CoatSample sample = sample_coat(work, walk, records);
+    const Color noise = work.style.paper_mode
+                            ? Color(static_cast<float>(coat.noise_lightness))
+                            : sample.gain * Color(coat.noise_lightness, coat.noise_chroma, coat.noise_chroma);
+    const bool covers = coat_number == 0 || (coat.bare == 0 && coat.bare_plain == 0);
     const int columns = work.mask.width * work.scale;
     for_each_canvas_row(work, [&](int x, int y, std::int64_t) {
         const Stroke stroke =
             convolve_at(work.canvas, walk, records, x + work.canvas.rim, y + work.canvas.rim);
         float alpha = coat_number == 0 ? 1.0f : static_cast<float>(coat.opacity);
-        if (picky && coat_number > 0) {
+        if (!covers) {
             const float detail = work.detail.at(x / work.scale, y / work.scale);
-            const float threshold =
-                static_cast<float>(coat.keep) + static_cast<float>(coat.keep_plain) * (1 - detail);
-            alpha *= std::clamp((stroke.priority - threshold) / keep_softness, 0.0f, 1.0f);
+            const float bare =
+                glm::mix(static_cast<float>(coat.bare_plain), static_cast<float>(coat.bare), detail);
+            alpha *= std::clamp((stroke.priority - priority_below(sample, bare)) / bare_softness, 0.0f, 1.0f);
         }
         Painted& out = painted[static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) +
                                static_cast<std::size_t>(x)];
@@ -320,9 +371,9 @@ Image<float> make_bristles(Work& work, const SparseMap& sparse, const Regions& r
     const double cell = scaled(bristle_width, work.picture_height);
     const std::vector<CellRecord> records =
         make_site_cells(work, hairs, work.toned, sparse, regions, label, cell, bristle_coat);
-    const double step = std::min(scaled(work.style.step, work.picture_height), 1.0) * work.scale;
-    const Walk walk = make_walk(scaled(bristle_length, work.picture_height) * work.scale, step, false);
-    const float gain = noise_gain(work, walk, records);
+    const Walk walk =
+        make_walk(scaled(bristle_length, work.picture_height) * work.scale, canvas_step(work), false);
+    const float gain = sample_coat(work, walk, records).gain;
     Image<float> marks(work.mask.width * work.scale, work.mask.height * work.scale, 0.0f);
     for_each_canvas_row(work, [&](int x, int y, std::int64_t) {
         marks.at(x, y) =
@@ -392,9 +443,9 @@ Image<Color> paint_region(const InformativeMap& informative, const SparseMap& sp
     work.toned = tone_region(informative, regions, label, work.mask, work.style);
     const std::vector<PaintLayer> coats = coats_of(work.style);
     if (std::any_of(coats.begin(), coats.end(),
-                    [](const PaintLayer& c) { return c.keep_plain > 0 || c.keep > 0; }))
+                    [](const PaintLayer& c) { return c.bare_plain > 0 || c.bare > 0; }))
         work.detail = find_detail(work.toned, work.mask, height);
-    work.canvas = make_canvas(work, std::min(scaled(work.style.step, height), 1.0) * work.scale);
+    work.canvas = make_canvas(work, canvas_step(work));
     std::vector<Painted> painted(work.mask.pixels.size() * static_cast<std::size_t>(work.scale * work.scale));
     for (std::size_t i = 0; i < coats.size(); ++i)
         paint_coat(work, coats[i], static_cast<int>(i), sparse, regions, label, painted);

@@ -166,14 +166,13 @@ PaintLayer parse_layer(Parser& p) {
             layer.opacity = parse_float_in(p, 0, 1, "`opacity`");
         else if (accept(p, "blur"_kw))
             layer.blur = parse_length(p, "`blur`");
-        else if (accept(p, "keep"_kw))
-            layer.keep = parse_float_in(p, 0, 1, "`keep`");
-        else if (accept(p, "detail"_kw))
-            layer.keep_plain = parse_float_in(p, 0, 1, "`detail`");
-        else
+        else if (accept(p, "bare"_kw)) {
+            layer.bare = parse_float_in(p, 0, 1, "`bare`");
+            accept_comma(p);
+            if (at_expression(p)) layer.bare_plain = parse_float_in(p, 0, 1, "`bare` on plain parts");
+        } else
             unexpected(p, "layer",
-                       {"length"_kw, "cell"_kw, "noise"_kw, "edge"_kw, "opacity"_kw, "blur"_kw, "keep"_kw,
-                        "detail"_kw});
+                       {"length"_kw, "cell"_kw, "noise"_kw, "edge"_kw, "opacity"_kw, "blur"_kw, "bare"_kw});
         accept_comma(p);
     });
     return layer;
@@ -198,6 +197,8 @@ void parse_ilic(Parser& p, PaintWord& word) {
             say(word, &PaintStyle::cell, parse_float_in(p, 0.01, longest, "`cell`"));
         else if (accept(p, "edge"_kw))
             say(word, &PaintStyle::edge, parse_float_in(p, 0, 1e6, "`edge`"));
+        else if (accept(p, "size"_kw))
+            say(word, &PaintStyle::size, parse_float_in(p, 0.01, 100, "`size`"));
         else if (accept(p, "step"_kw))
             say(word, &PaintStyle::step, parse_float_in(p, 0.01, 100, "`step`"));
         else if (accept(p, "gaussian"_kw))
@@ -215,7 +216,8 @@ void parse_ilic(Parser& p, PaintWord& word) {
             first_layer = false;
         } else
             unexpected(p, "ilic",
-                       {"length"_kw, "cell"_kw, "noise"_kw, "edge"_kw, "gaussian"_kw, "step"_kw, "layer"_kw});
+                       {"length"_kw, "cell"_kw, "noise"_kw, "edge"_kw, "size"_kw, "gaussian"_kw, "step"_kw,
+                        "layer"_kw});
         accept_comma(p);
     });
 }
@@ -282,8 +284,6 @@ void parse_npr_item(Parser& p, PaintWord& word) {
         parse_tone(p, word);
     else if (accept(p, "relief"_kw))
         parse_relief(p, word);
-    else if (accept(p, "bleed"_kw))
-        say(word, &PaintStyle::bleed, parse_length(p, "`bleed`"));
     else if (accept(p, "mix"_kw))
         say(word, &PaintStyle::mix, parse_float_in(p, 0, 1, "`mix`"));
     else if (accept(p, "paper_mode"_kw))
@@ -291,7 +291,7 @@ void parse_npr_item(Parser& p, PaintWord& word) {
     else
         unexpected(p, "npr",
                    {"style"_kw, "seeds"_kw, "field"_kw, "interpolation"_kw, "ilic"_kw, "tone"_kw, "relief"_kw,
-                    "bleed"_kw, "mix"_kw, "paper_mode"_kw});
+                    "mix"_kw, "paper_mode"_kw});
 }
 
 PaintStyle resolve_style(const PaintWord& defaults, const PaintWord& own) {

@@ -27,8 +27,8 @@ TEST(ParseNpr, AllItems) {
         seeds { seed { <0, 1, 0>, x } seed { <1, 0, 0>, y weight 2 } rbf { kernel triharmonic smooth 0.1 neighbours 4 } }
         field around <1, 2, 3>, y weight 0.4
         interpolation { radius 7 fill random }
-        ilic { length 39 cell 6 noise 0.04, 0.03 edge 12 gaussian 21, 11 step 0.25 }
-        tone { contrast 1.2 saturation 1.1 warm 0.05 } relief 0.1, 0.02 bleed 3
+        ilic { length 39 cell 6 noise 0.04, 0.03 edge 12 gaussian 21, 11 step 0.25 size 0.7 }
+        tone { contrast 1.2 saturation 1.1 warm 0.05 } relief 0.1, 0.02
         mix 0.75)");
     ASSERT_EQ(s.seeds.size(), 2u);
     EXPECT_EQ(s.seeds[1].weight, 2);
@@ -49,7 +49,7 @@ TEST(ParseNpr, AllItems) {
     EXPECT_EQ(s.step, 0.25);
     EXPECT_EQ(s.contrast, 1.2);
     EXPECT_EQ(s.bristle, 0.02);
-    EXPECT_EQ(s.bleed, 3);
+    EXPECT_EQ(s.size, 0.7);
     EXPECT_EQ(s.mix, 0.75);
 }
 
