@@ -315,10 +315,13 @@ void dispatch(Parser& p, const Token& directive) {
     case "error"_kw:
         return error_directive(p, directive);
     case "fopen"_kw:
+        return fopen_directive(p, directive);
     case "fclose"_kw:
+        return fclose_directive(p, directive);
     case "read"_kw:
+        return read_directive(p, directive);
     case "write"_kw:
-        fail(p, directive, fmt::format("`{}` is not supported", directive_name(p, directive)));
+        return write_directive(p, directive);
     default:
         unknown_directive(p, directive);
     }

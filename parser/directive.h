@@ -26,6 +26,10 @@ void accept_semicolon(Parser& p); // without running what stands behind
 void declare_directive(Parser& p, const Token& directive, bool local);
 void undef_directive(Parser& p, const Token& directive);
 void macro_directive(Parser& p, const Token& directive);
+void fopen_directive(Parser& p, const Token& directive); // directive_file.cpp
+void fclose_directive(Parser& p, const Token& directive);
+void read_directive(Parser& p, const Token& directive);
+void write_directive(Parser& p, const Token& directive);
 bool ifdef_condition(Parser& p, const Token& directive); // `(NAME)` or `(NAME[i])`
 
 } // namespace pnr

@@ -100,6 +100,7 @@ struct Expander {
     Words words;
     std::vector<std::string> strings;
     std::deque<std::vector<Token>> texts;                 // tokens, by source
+    std::unordered_map<std::string, std::string> written; // texts that #write made, by the name it was given
     std::unordered_map<std::string, std::uint32_t> files; // path -> source, of included files
 
     std::vector<SymbolEntry> symbols;

@@ -152,6 +152,13 @@ std::vector<fs::path> povray_folders() {
 
 std::uint32_t open_include(Parser& p, const Token& at, const std::string& name) {
     Expander& in = p.in;
+    if (const auto text = in.written.find(name); text != in.written.end()) {
+        const std::string shown = "written:" + name;
+        const auto known = in.files.find(shown);
+        if (known != in.files.end() && in.sources.files[known->second].text == text->second)
+            return known->second;
+        return in.files[shown] = in.sources.add(shown, text->second);
+    }
     const Found found = find_in(in, search_folders(in), name);
     if (!found.path.empty()) return add_file(p, at, found.path);
     for (const EmbeddedFile& file : embedded_files()) {
@@ -169,6 +176,7 @@ std::uint32_t open_include(Parser& p, const Token& at, const std::string& name) 
 }
 
 bool file_exists(Parser& p, const std::string& name) {
+    if (p.in.written.contains(name)) return true;
     for (const EmbeddedFile& file : embedded_files())
         if (file.name == name) return true;
     return !find_in(p.in, search_folders(p.in), name).path.empty() ||

@@ -240,6 +240,8 @@ const char* type_name(const Value& value) {
         return "macro";
     case 7:
         return "function";
+    case 8:
+        return "open file";
     default:
         break;
     }

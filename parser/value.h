@@ -4,6 +4,8 @@
 
 #include "core/scene.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,6 +43,14 @@ struct SkippedBlock {
     std::string word;
 };
 
+// A file that #fopen opened.
+struct OpenFile {
+    std::string name;
+    bool writing = false;
+    std::uint32_t source = 0; // of the text that is read ...
+    std::size_t position = 0; // ... and the token to read next
+};
+
 struct Macro;    // expander.h
 struct Function; // function.h
 
@@ -51,7 +61,7 @@ using DeclaredBlock = std::variant<Object, Texture, Pigment, Finish, Interior, L
 struct Value {
     std::variant<std::monostate, double, VectorValue, std::string, std::shared_ptr<ArrayValue>,
                  std::shared_ptr<const DeclaredBlock>, std::shared_ptr<const Macro>,
-                 std::shared_ptr<const Function>>
+                 std::shared_ptr<const Function>, std::shared_ptr<OpenFile>>
         data;
 };
 

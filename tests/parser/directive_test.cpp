@@ -115,6 +115,20 @@ TEST(Directive, Values) {
     EXPECT_EQ(run("#declare length = 2; #debug str(length + 1, 0, 0)"), "3"); // a free word
 }
 
+TEST(Directive, Files) {
+    const std::string write =
+        "#fopen F \"a.txt\" write #write (F, 1.5, \",\", <1, -2, 3>, \",\\\"text\\\"\") #fclose F ";
+    EXPECT_EQ(run(write +
+                  "#fopen F \"a.txt\" read #read (F, A, B, C) #debug concat(str(A, 0, 1), str(B.y, 0, 0), C) "
+                  "#ifdef (F) #debug \"open\" #else #debug \"at the end\" #end"),
+              "1.5-2textat the end");
+    EXPECT_EQ(run("#fopen F \"b.inc\" write #write (F, \"#declare B = \", 1 / 4, \";\") #fclose F "
+                  "#fopen F \"b.inc\" append #write (F, \"#declare C = B;\") #fclose F #include \"b.inc\" "
+                  "#debug str(C, 0, 2)"),
+              "0.25");
+    EXPECT_EQ(first_error("#write (F, 1)"), "test.pnr:1:9: error: `F` is no open file");
+}
+
 TEST(Directive, DeclaresFromOutside) {
     LoadOptions options;
     options.declares = {{"N", "3"}, {"S", "\"text\""}, {"M", "N * 2"}};

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// #fopen #write #read #fclose. What a scene writes lives in memory, and can be read and included in the same
+// run.
+#include "parser/directive.h"
+#include "parser/expression.h"
+#include "parser/library.h"
+
+#include <fmt/format.h>
+
+namespace pnr {
+
+namespace {
+
+Token take_handle_name(Parser& p, const Token& directive) {
+    const Token name = next_raw(p);
+    if (name.kind != TokenKind::word || is_reserved(name.symbol))
+        fail(p, name,
+             fmt::format("expected the file's name after `{}`, found {}", directive_name(p, directive),
+                         token_text(p, name)));
+    return name;
+}
+
+OpenFile& open_file(Parser& p, const Token& name) {
+    const Value* value = lookup(p.in, name.symbol);
+    const auto* file = value ? std::get_if<std::shared_ptr<OpenFile>>(&value->data) : nullptr;
+    if (!file) fail(p, name, fmt::format("{} is no open file", token_text(p, name)), "#fopen opens one");
+    return **file;
+}
+
+void append(Parser& p, const Token& at, std::string& text, std::string_view more) {
+    charge(p, at, more.size());
+    text += more;
+}
+
+// As POV-Ray writes it: numbers with %g, vectors in angle brackets.
+std::string written(Parser& p) {
+    if (at_string(p)) return parse_string(p);
+    const VectorValue value = parse_operand_expression(p, Angles::compare);
+    if (value.size == 1) return fmt::format("{:g}", value.v[0]);
+    std::string text = "<";
+    for (int i = 0; i < value.size; ++i) text += fmt::format("{}{:g}", i > 0 ? "," : "", value.v[i]);
+    return text + ">";
+}
+
+// One value of a text file: a string, a number, or a vector; false at its end.
+bool read_value(Parser& p, const Token& at, OpenFile& file, Value& value) {
+    const std::vector<Token>& tokens = tokens_of(p.in, file.source);
+    const auto number = [&](double& result) {
+        const bool negative = is(tokens[file.position], '-');
+        if (negative || is(tokens[file.position], '+')) ++file.position;
+        if (tokens[file.position].kind != TokenKind::number) fail(p, at, "this file holds no number here");
+        result = tokens[file.position++].value * (negative ? -1 : 1);
+    };
+    const Token& token = tokens[file.position];
+    if (token.kind == TokenKind::end) return false;
+    if (token.kind == TokenKind::string) {
+        value.data = p.in.strings[token.symbol];
+        ++file.position;
+    } else if (is(token, '<')) {
+        VectorValue vector;
+        vector.size = 0;
+        do {
+            ++file.position;
+            if (vector.size == 5) fail(p, at, "a vector has at most 5 components");
+            number(vector.v[vector.size++]);
+        } while (is(tokens[file.position], ','));
+        if (!is(tokens[file.position], '>')) fail(p, at, "this file holds a vector that is not closed");
+        ++file.position;
+        value.data = vector;
+    } else {
+        double result = 0;
+        number(result);
+        value.data = result;
+    }
+    if (is(tokens[file.position], ',')) ++file.position;
+    return true;
+}
+
+} // namespace
+
+void fopen_directive(Parser& p, const Token& directive) {
+    const Token name = take_handle_name(p, directive);
+    const Token at = peek_raw(p);
+    auto file = std::make_shared<OpenFile>();
+    {
+        const HoldScope hold(p);
+        file->name = parse_string(p);
+        const Token mode = next(p);
+        file->writing = is(mode, "write"_kw) || is(mode, "append"_kw);
+        if (!file->writing && !is(mode, "read"_kw))
+            fail(p, mode, fmt::format("expected `read`, `write` or `append`, found {}", token_text(p, mode)));
+        if (is(mode, "write"_kw)) p.in.written[file->name].clear();
+    }
+    if (!file->writing) file->source = open_include(p, at, file->name);
+    assign(p, name.symbol, Value{std::move(file)}, false);
+}
+
+void fclose_directive(Parser& p, const Token& directive) {
+    const Token name = take_handle_name(p, directive);
+    if (lookup(p.in, name.symbol)) { // #read at the end has closed it already
+        open_file(p, name);
+        undefine(p.in, name.symbol);
+    }
+}
+
+void write_directive(Parser& p, const Token& directive) {
+    expect_raw(p, '(', directive);
+    const Token name = take_handle_name(p, directive);
+    const OpenFile& file = open_file(p, name);
+    if (!file.writing) fail(p, name, fmt::format("{} was opened to be read", token_text(p, name)));
+    const std::string path = file.name;
+    std::string text;
+    while (accept(p, ',')) text += written(p);
+    expect(p, ')', "to close the list of what is written");
+    append(p, name, p.in.written[path], text);
+}
+
+void read_directive(Parser& p, const Token& directive) {
+    expect_raw(p, '(', directive);
+    const Token name = take_handle_name(p, directive);
+    const Value* value = lookup(p.in, name.symbol);
+    const auto* held_file = value ? std::get_if<std::shared_ptr<OpenFile>>(&value->data) : nullptr;
+    if (!held_file || (*held_file)->writing)
+        fail(p, name, fmt::format("{} is no file that is open to be read", token_text(p, name)));
+    const std::shared_ptr<OpenFile> file = *held_file;
+    while (is(peek_raw(p), ',')) {
+        next_raw(p);
+        const Token variable = take_handle_name(p, directive);
+        Value read;
+        if (read_value(p, name, *file, read)) assign(p, variable.symbol, std::move(read), false);
+    }
+    expect_raw(p, ')', directive);
+    // At its end the name is undefined: `#while (defined(File))` is how POV-Ray's scenes go through a file.
+    if (tokens_of(p.in, file->source)[file->position].kind == TokenKind::end) undefine(p.in, name.symbol);
+}
+
+} // namespace pnr
