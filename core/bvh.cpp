@@ -302,6 +302,11 @@ struct Collapser {
             children[widest] = opened;
             children[count++] = opened + 1;
         }
+        // Rays that look for anything at all try the first child first: the largest is met most often.
+        std::sort(children, children + count, [&](std::uint32_t a, std::uint32_t b) {
+            const float x = binary[a].box.half_area(), y = binary[b].box.half_area();
+            return x != y ? x > y : a < b;
+        });
         return count;
     }
 

@@ -286,7 +286,7 @@ void traverse(Query& q) {
                 // What is met next is seldom at hand already.
                 for (unsigned others = met & (met - 1); others; others &= others - 1)
                     fetch(tree + (node.child[__builtin_ctz(others)] & index_mask) * line_size);
-                if (any) { // no order: whatever blocks the ray will do
+                if (any) { // in no order: whatever blocks the ray will do
                     at = node.child[__builtin_ctz(met)];
                     for (met &= met - 1; met; met &= met - 1)
                         *top++ = {node.child[__builtin_ctz(met)], q.t_min};
