@@ -16,6 +16,7 @@ struct SaidCamera {
     Camera camera;
     Vec3 sky{0, 1, 0}, look_at{0, 0, 1};
     bool looks = false, sized = false; // look_at; right or up
+    bool replaced = false;             // its type is one that we lack
     std::optional<double> angle;
     Transform transform;
 };
@@ -39,13 +40,15 @@ void apply_look_at(Camera& camera, Vec3 look_at, Vec3 sky) {
     camera.right = right * (mirrored ? -right_length : right_length);
 }
 
-void parse_projection(Parser& p, const Token& word, Camera& camera) {
+void parse_projection(Parser& p, const Token& word, SaidCamera& said) {
+    Camera& camera = said.camera;
     next(p);
     if (is(word, "perspective"_kw))
         camera.projection = Projection::perspective;
     else if (is(word, "orthographic"_kw))
         camera.projection = Projection::orthographic;
     else {
+        said.replaced = true;
         warn_unsupported(p, word, "camera type " + token_text(p, word, false),
                          "a perspective camera takes its place");
         skip_argument(p, token_text(p, word, false));
@@ -55,7 +58,8 @@ void parse_projection(Parser& p, const Token& word, Camera& camera) {
 void parse_angle(Parser& p, SaidCamera& said) {
     const Token at = peek(p);
     const double degrees = parse_float(p);
-    if (at_expression(p)) parse_float(p); // the vertical angle of spherical cameras
+    if (at_expression(p)) parse_float(p);        // the vertical angle of spherical cameras
+    if (said.replaced && degrees >= 180) return; // of a camera type that sees further around
     if (!(degrees >= 0 && degrees < 180)) fail(p, at, "`angle` must lie between 0 and 180 degrees");
     if (degrees == 0)
         warn(p, at, "`angle 0` is ignored");
@@ -83,7 +87,7 @@ bool parse_camera_word(Parser& p, SaidCamera& said) {
     case "spherical"_kw:
     case "cylinder"_kw:
     case "mesh_camera"_kw:
-        parse_projection(p, word, camera);
+        parse_projection(p, word, said);
         return true;
     case "location"_kw:
         next(p), camera.location = parse_vector(p);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pigments: patterns and the colours they pick.
 #include "parser/blocks.h"
+#include "parser/expression.h"
 
 #include <algorithm>
 
@@ -57,7 +58,7 @@ bool is_unsupported_pattern(const Token& token) {
     }
 }
 
-bool at_color(Parser& p) { return at(p, "color"_kw) || at_expression(p); }
+bool at_color_expression(Parser& p) { return at(p, "color"_kw) || at_expression(p); }
 
 // A map's end belongs to the last colour, its start to the first: the mean over [0, 1] of the piecewise
 // linear map.
@@ -89,7 +90,7 @@ ColorFT parse_list_color(Parser& p) {
 
 // `checker A, B`: up to `most` colours; those not given keep POV-Ray's defaults.
 void parse_color_list(Parser& p, Pigment& pigment, std::vector<ColorFT> defaults) {
-    for (std::size_t i = 0; i < defaults.size() && (at_color(p) || at(p, "pigment"_kw)); ++i) {
+    for (std::size_t i = 0; i < defaults.size() && (at_color_expression(p) || at(p, "pigment"_kw)); ++i) {
         defaults[i] = parse_list_color(p);
         accept_comma(p);
     }
@@ -110,7 +111,14 @@ void parse_unsupported_pattern(Parser& p, const Token& word, Pigment& pigment) {
     warn_unsupported(p, word, token_text(p, word, false), "its mean colour is painted");
     pigment.pattern = UniformPattern{};
     pigment.map = gray_ramp();
-    while (at_color(p)) parse_color(p), accept_comma(p);
+    accept(p, "df3"_kw);
+    while (at_string(p) || at_color_expression(p)) {
+        if (at_string(p))
+            parse_string(p);
+        else
+            parse_color(p);
+        accept_comma(p);
+    }
     if (at(p, '{')) skip_block(p, token_text(p, word, false));
 }
 
@@ -164,6 +172,7 @@ bool parse_pattern_modifier(Parser& p, Pigment& pigment) {
     case "exterior"_kw:
     case "interior"_kw:
         next(p), skip_argument(p, token_text(p, word, false));
+        while (accept(p, ',')) skip_argument(p, token_text(p, word, false)); // interior and exterior take two
         return true;
     default:
         return false;
@@ -213,7 +222,7 @@ void parse_pigment_item(Parser& p, Pigment& pigment) {
         skip_block(p, "pigment_map");
     } else if (Transform transform; accept_transform(p, transform))
         apply_transform(transform, pigment);
-    else if (at_color(p))
+    else if (at_color_expression(p))
         parse_solid_color(p, pigment);
     else
         unexpected(p, "pigment",
@@ -269,7 +278,7 @@ ImagePattern parse_image_map(Parser& p) {
     const Token opener = peek(p);
     block(p, "image_map", [&] {
         const Token word = peek(p);
-        if (word.kind == TokenKind::string) {
+        if (at_string(p)) {
             image.said_at = source_ref(p, word);
             image.file = resolve_file(p, word, parse_string(p));
             return;

@@ -92,6 +92,12 @@ void parse_scene_item(Parser& p) {
     if (accept(p, "camera"_kw)) return parse_camera_item(p);
     if (accept(p, "background"_kw)) return parse_background(p);
     if (accept(p, "global_settings"_kw)) return parse_global_settings(p);
+    if (accept(p, "default"_kw)) { // POV-Ray takes #default without its mark as well
+        open_block(p, "default");
+        parse_default_block(p);
+        close_block(p);
+        return;
+    }
     if (is_unsupported_item(word)) {
         warn_unsupported(p, next(p), token_text(p, word, false), "it is left out");
         return skip_block(p, token_text(p, word, false));
@@ -110,6 +116,13 @@ void check_whole_scene(Parser& p) {
              "add one: camera { location <0, 2, -8> look_at <0, 1, 0> }");
     if (p.scene.lights.empty() && !p.scene.objects.empty())
         warn(p, end, "the scene has no light", "add one: light_source { <5, 10, -10>, rgb 1 }");
+}
+
+// `texture {...} texture {...}`: layers, of which the lowest is kept unless one above hides it.
+Texture parse_layers(Parser& p) {
+    Object bearer;
+    while (at(p, "texture"_kw)) parse_object_modifier(p, bearer);
+    return bearer.texture.value_or(p.default_texture);
 }
 
 } // namespace
@@ -132,8 +145,7 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
     if (auto object = parse_object(p)) return DeclaredBlock(std::move(*object));
     switch (keyword_of(word)) {
     case "texture"_kw:
-        next(p);
-        return parse_texture(p, p.default_texture);
+        return parse_layers(p);
     case "pigment"_kw:
         next(p);
         return parse_pigment(p, p.default_texture.pigment);

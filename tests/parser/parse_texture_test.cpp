@@ -110,6 +110,16 @@ TEST(ParseTexture, DeclaredTexturesAndMaterials) {
     EXPECT_EQ(scene.objects[1].texture->finish.specular, 1);
 }
 
+TEST(ParseTexture, DeclaredLayersKeepTheLowestUnlessItIsHidden) {
+    const Scene scene = scene_of(R"(
+        #declare Stained = texture { pigment { rgb <1, 0, 0> } } texture { pigment { rgbt <0, 0, 0, 0.9> } }
+        #declare Covered = texture { pigment { rgb <1, 0, 0> } } texture { pigment { rgb <0, 1, 0> } }
+        sphere { 0, 1 texture { Stained } }
+        sphere { 0, 1 texture { Covered } })");
+    EXPECT_EQ(scene.objects[0].texture->pigment.map[0].color.rgb, Color(1, 0, 0));
+    EXPECT_EQ(scene.objects[1].texture->pigment.map[0].color.rgb, Color(0, 1, 0));
+}
+
 TEST(ColorsInc, NamesAndMacros) {
     const Scene scene = scene_of(R"(#include "colors.inc"
         sphere { 0, 1 pigment { SteelBlue } }
