@@ -119,9 +119,10 @@ void check_whole_scene(Parser& p) {
 }
 
 // `texture {...} texture {...}`: layers, of which the lowest is kept unless one above hides it.
+// peek_operator: the declaration must end before a directive behind it runs.
 Texture parse_layers(Parser& p) {
     Object bearer;
-    while (at(p, "texture"_kw)) parse_object_modifier(p, bearer);
+    while (is(peek_operator(p), "texture"_kw)) parse_object_modifier(p, bearer);
     return bearer.texture.value_or(p.default_texture);
 }
 
