@@ -24,7 +24,7 @@ constexpr float enough = 0.7f;
 constexpr float least_aligned = 0.9f;
 constexpr int most_levels = 4;
 // Weight of a record where it is not to be trusted, if no other is.
-constexpr float last_resort = 1e-3f;
+constexpr float last_resort = 1e-5f;
 // One in so many photons gets its irradiance computed beforehand, from so many neighbours.
 constexpr std::size_t lit_stride = 4;
 constexpr int lit_neighbours = 64;
