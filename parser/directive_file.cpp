@@ -110,7 +110,10 @@ void write_directive(Parser& p, const Token& directive) {
     if (!file.writing) fail(p, name, fmt::format("{} was opened to be read", token_text(p, name)));
     const std::string path = file.name;
     std::string text;
-    while (accept(p, ',')) text += written(p);
+    while (!at(p, ')')) { // the commas may be missing, as in POV-Ray
+        accept(p, ',');
+        text += written(p);
+    }
     expect(p, ')', "to close the list of what is written");
     append(p, name, p.in.written[path], text);
 }
