@@ -74,8 +74,8 @@ Image<Color> draw_orientation(const Rendering& r) {
     const InformativeMap& map = r.paint.informative;
     Image<Color> picture(r.settings.render.width, r.settings.render.height, Color(1));
     if (map.empty()) return picture;
-    const int spacing = std::max(3, static_cast<int>(std::lround(scaled(8, picture.height))));
-    const float half_length = 0.45f * static_cast<float>(spacing);
+    const int spacing = std::max(3, static_cast<int>(std::lround(scaled(11, picture.height))));
+    const float half_length = 0.8f * static_cast<float>(spacing);
     const Color paper(0.82f, 0.80f, 0.75f), ink(0.01f, 0.02f, 0.06f);
     for (std::size_t i = 0; i < picture.pixels.size(); ++i)
         if (map.pixels[i].kind != PixelKind::outside) picture.pixels[i] = paper;

@@ -36,7 +36,7 @@ enum class Integrator { photons, path };
 enum class View { clip, shoulder };
 
 struct RenderSettings {
-    int width = 0, height = 0; // pixels; 0: from the camera, 512 high rule of the command line
+    int width = 0, height = 0; // pixels; 0: from the camera, width 512, height 512 |up| / |right| of the command line
     std::uint64_t seed = 1;
     int samples_min = 4;            // rays a pixel at first ...
     int samples_max = 16;           // ... and where neighbours differ by more than `contrast`
