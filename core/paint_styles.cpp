@@ -126,7 +126,8 @@ constexpr std::array<NamedStyle, 6> styles{{{"ilic", default_style},
 bool set_style(PaintStyle& style, std::string_view word) {
     for (const NamedStyle& named : styles) {
         if (named.word != word) continue;
-        copy_brush(named.make(), style);
+        // `ilic` is the paper's: within paper_mode to the letter.
+        copy_brush(style.paper_mode && word == "ilic" ? paper_style() : named.make(), style);
         return true;
     }
     return false;

@@ -51,7 +51,8 @@ struct RenderSettings {
     bool prune = true;   // --no-prune: take the unpruned path everywhere
 };
 
-// ---- painting -------------------------------------------------------------------------------------------------
+// ---- painting
+// -------------------------------------------------------------------------------------------------
 
 // r, r^3, exp(-(r/c)^2). In space r is itself the biharmonic function [Carr 2001], so the word `linear` means
 // biharmonic too.
@@ -67,8 +68,8 @@ struct Seed {
     SourceRef said_at;
 };
 
-// One coat of strokes, `layer { length l  cell c  noise l, ab  edge e  opacity o  blur b  bare k [, plain] }` inside
-// `ilic`. Coats are painted in the order of the text, each over the ones before.
+// One coat of strokes, `layer { length l  cell c  noise l, ab  edge e  opacity o  blur b  bare k [, plain] }`
+// inside `ilic`. Coats are painted in the order of the text, each over the ones before.
 struct PaintLayer {
     double length = 26;             // of the whole ILIC path, both sides
     double cell = 4.5;              // width of a noise cell
@@ -77,8 +78,9 @@ struct PaintLayer {
     double edge = 40;               // 0: the paper's mean; 40: one cell wins the path
     double opacity = 1;             // of a stroke over the coats below
     double blur = 0;                // the strokes' colours are first blurred by this standard deviation
-    double bare = 0;       // share of the surface that is left as the coats below have it ...
-    double bare_plain = 0; // ... and the share where the picture is plain, away from silhouettes and lightness edges
+    double bare = 0;                // share of the surface that is left as the coats below have it ...
+    double bare_plain =
+        0; // ... and the share where the picture is plain, away from silhouettes and lightness edges
 };
 
 // All that `npr { ... }` can say, with the defaults of design.md section 3. Lengths are in pixels of a
@@ -97,16 +99,18 @@ struct PaintStyle {
     double length = 26;             // of the whole ILIC path, both sides
     double cell = 4.5;              // width of a noise cell
     double noise_lightness = 0.035; // standard deviations of the result, Oklab L ...
-    double noise_chroma = 0.025;    // ... and a, b
+    double noise_chroma = 0.025; // ... and a, b; paper_mode: the first is that of each of the display's R, G,
+                                 // B, uniform, before the convolution, and the second does nothing
     double edge = 40;               // 0: the paper's mean; 40: one cell wins the path
     std::vector<PaintLayer> layers; // `layer { ... }` items; empty: one coat of the five values above
-    double size = 1; // of all strokes: multiplies every coat's length, cell and blur
-    // `tone { contrast c  saturation s  warm w }`, done to the colours before the painting: Oklab lightness about the
-    // object's median, chroma, and how far lights go to yellow and shadows to blue.
+    double size = 1;                // of all strokes: multiplies every coat's length, cell and blur
+    // `tone { contrast c  saturation s  warm w }`, done to the colours before the painting: Oklab lightness
+    // about the object's median, chroma, and how far lights go to yellow and shadows to blue.
     double contrast = 1, saturation = 1, warm = 0;
     double relief = 0;  // `relief r [, b]`: strokes lit as ridges of paint from the top left,
     double bristle = 0; // and the standard deviation in Oklab L of the brush's marks along the strokes
-    std::optional<double> gaussian_first, gaussian_second; // windows of the field's smoothing; unset: field_windows()
+    std::optional<double> gaussian_first,
+        gaussian_second;      // windows of the field's smoothing; unset: field_windows()
     double step = 0.5;        // of the path, in pixels
     double mix = 1;           // 0 photoreal .. 1 painted
     bool box_weights = false; // paper_mode: box instead of Hann
@@ -114,11 +118,15 @@ struct PaintStyle {
     bool paper_mode = false;  // [LW10] to the letter
 };
 
-// `style WORD`: sets how paint is laid (length to gaussian above, layers, tone, relief) to the named style's
-// and leaves seeds, field, radius, fill and mix alone. False, and nothing changed, for an unknown word.
-//   ilic     one coat, the default          oil      three coats, contrasts, relief: the fullest
-//   impasto  broad, thick strokes           pastel   soft short strokes on soft ones
-//   fur      long and thin                  wash     the paper's mean with restored noise: soft and wet
+// `style WORD`: sets how paint is laid (length to edge above, layers, size, tone, relief, gaussian, step, the
+// weights' shape) to the named style's and leaves seeds, rbf, field, radius, fill, mix, vectors and
+// paper_mode alone. False, and nothing changed, for an unknown word.
+//   ilic     one coat, the default; within paper_mode the paper's
+//   oil      three coats, contrasts, relief, bristles: the fullest
+//   impasto  two coats of broad strokes, thick: the strongest relief and bristles
+//   pastel   two coats of short strokes with soft edges, the upper one thin
+//   fur      two coats, long and thin, hardly varied in hue
+//   wash     one coat: the paper's mean with restored noise, soft and wet
 bool set_style(PaintStyle& style, std::string_view word);
 std::vector<std::string> style_words();
 // The field an object is painted along: what was said, or curvature_min where neither seeds nor a field were.

@@ -13,8 +13,9 @@ Image<Vec2f> smooth_directions(const InformativeMap& informative, const Regions&
     for (int y = 0; y < mask.height; ++y) {
         for (int x = 0; x < mask.width; ++x) {
             if (mask.at(x, y) == 0) continue;
-            const Vec2f axis = informative.at(box.x0 + x, box.y0 + y).axis;
-            axes.at(x, y) = style.vectors ? axis_direction(axis) : axis;
+            const Informed& pixel = informative.at(box.x0 + x, box.y0 + y);
+            axes.at(x, y) =
+                style.vectors ? axis_direction(pixel.axis) * (pixel.turned ? -1.0f : 1.0f) : pixel.axis;
         }
     }
     const Vec2 windows = field_windows(style);

@@ -109,16 +109,18 @@ CellRecord make_record(const Work& work, const PaintLayer& coat, Color base, std
     return record;
 }
 
-// [LW10]: noise a pixel.
+// [LW10]: noise a pixel of a 512-high picture, each on the pixel's own colour; `cell` is such a pixel's side
+// in pixels of this picture.
 std::vector<CellRecord> make_pixel_cells(Work& work, const PaintLayer& coat, const Image<Color>& base,
-                                         int coat_number) {
+                                         double cell, int coat_number) {
+    const auto side = static_cast<int>(std::max(1L, std::lround(cell)));
     std::vector<CellRecord> records(base.pixels.size());
     const std::uint64_t key = hash_words(hash_words(work.seed, static_cast<std::uint64_t>(Pass::noise)),
                                          static_cast<std::uint64_t>(coat_number));
     for (int y = 0; y < base.height; ++y) {
         for (int x = 0; x < base.width; ++x) {
-            const std::uint64_t place = static_cast<std::uint64_t>(work.region.box.y0 + y) << 32 |
-                                        static_cast<std::uint64_t>(work.region.box.x0 + x);
+            const std::uint64_t place = static_cast<std::uint64_t>((work.region.box.y0 + y) / side) << 32 |
+                                        static_cast<std::uint64_t>((work.region.box.x0 + x) / side);
             const std::uint64_t hash = hash_words(key, place);
             records[static_cast<std::size_t>(y) * static_cast<std::size_t>(base.width) +
                     static_cast<std::size_t>(x)] =
@@ -328,8 +330,9 @@ void paint_coat(Work& work, const PaintLayer& coat, int coat_number, const Spars
     masked_blur(base, work.mask, scaled(coat.blur, height));
     const double cell = scaled(coat.cell, height);
     const std::vector<CellRecord> records =
-        cell <= 1 ? make_pixel_cells(work, coat, base, coat_number)
-                  : make_site_cells(work, coat, base, sparse, regions, label, cell, coat_number);
+        cell <= 1 || (work.style.paper_mode && coat.cell <= 1)
+            ? make_pixel_cells(work, coat, base, cell, coat_number)
+            : make_site_cells(work, coat, base, sparse, regions, label, cell, coat_number);
     const Walk walk =
         make_walk(scaled(coat.length, height) * work.scale, canvas_step(work), work.style.box_weights);
     const CoatSample sample = sample_coat(work, walk, records);

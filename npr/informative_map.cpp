@@ -18,7 +18,7 @@ struct SourceRows {
         std::uint64_t region;
         Color radiance;
         Vec2f axis;      // (cos 2t, sin 2t)
-        Vec2f direction; // as a plain vector, for paper_mode
+        Vec2f direction; // as a plain vector with its sign, for paper_mode
     };
     std::vector<Source> sources;
     Image<std::uint32_t> before; // how many sources come before this pixel; one column more than the picture
@@ -32,8 +32,8 @@ SourceRows collect_sources(const SparseMap& sparse) {
             rows.before.at(x, y) = static_cast<std::uint32_t>(rows.sources.size());
             const SourcePixel& s = sparse.at(x, y);
             if (s.photon < 0) continue;
-            rows.sources.push_back(
-                {x, y, region_key(s.object, s.via), s.radiance, direction_axis(s.direction), s.direction});
+            rows.sources.push_back({x, y, region_key(s.object, s.via), s.radiance,
+                                    direction_axis(s.direction), s.turned ? -s.direction : s.direction});
         }
         rows.before.at(sparse.width, y) = static_cast<std::uint32_t>(rows.sources.size());
     }
@@ -122,6 +122,7 @@ void fill_at_random(Informed& pixel, std::uint64_t seed, std::uint64_t index) {
     for (int c = 0; c < 3; ++c) pixel.radiance[c] = linear_from_display(static_cast<float>(rng.uniform()));
     const double angle = 2 * pi * rng.uniform();
     pixel.axis = Vec2f(std::cos(angle), std::sin(angle));
+    pixel.turned = rng.uniform() < 0.5;
 }
 
 } // namespace
@@ -150,6 +151,7 @@ InformativeMap make_informative_map(const SparseMap& sparse, const World& world,
                     pixel.kind = PixelKind::source;
                     pixel.radiance = source.radiance;
                     pixel.axis = direction_axis(source.direction);
+                    pixel.turned = source.turned;
                     continue;
                 }
                 const PaintStyle& style = world.objects[seen.object].paint;
@@ -160,6 +162,7 @@ InformativeMap make_informative_map(const SparseMap& sparse, const World& world,
                     pixel.radiance = Color(sum.radiance / sum.weight);
                     pixel.axis = style.vectors ? direction_axis(canonical_direction(sum.direction))
                                                : unit_axis(sum.axis);
+                    pixel.turned = is_turned(sum.direction);
                     continue;
                 }
                 pixel.kind = PixelKind::filled;
@@ -173,7 +176,9 @@ InformativeMap make_informative_map(const SparseMap& sparse, const World& world,
                 // A reflection too small to hold a source takes from the object's other views.
                 if (!match) match = NearestSources::find(nearest.objects, seen.object, x, y, found);
                 pixel.axis = match ? rows.sources[*match].axis : Vec2f(1, 0);
-                if (match) pixel.radiance = rows.sources[*match].radiance;
+                if (!match) continue;
+                pixel.radiance = rows.sources[*match].radiance;
+                pixel.turned = is_turned(Vec2(rows.sources[*match].direction));
             }
         }
         const std::int64_t done = rows_done += last - first;

@@ -20,6 +20,8 @@ Vec2f direction_axis(Vec2f d) {
 
 double scaled(double pixels_at_512, int height) { return pixels_at_512 * height / 512.0; }
 
+bool is_turned(Vec2 d) { return glm::dot(Vec2(canonical_direction(d)), d) < 0; }
+
 Vec2f canonical_direction(Vec2 d) {
     const double length = glm::length(d);
     if (!(length > 0) || !std::isfinite(length)) return {1, 0};

@@ -20,6 +20,7 @@ struct SourcePixel {
     Vec2f at{0};              // where in the picture the photon is seen, in pixels; inside its pixel
     float z = 0;              // as in gbuffer.exr
     std::uint32_t object = 0, via = 0;
+    bool turned = false; // the photon's T goes against `direction`; matters to plain vectors alone
 };
 using SparseMap = Image<SourcePixel>;
 
@@ -27,9 +28,11 @@ enum class PixelKind : std::uint8_t { outside = 0, source = 1, interpolated = 2,
 
 struct Informed {
     Color radiance{0};
-    Vec2f axis{0}; // (cos 2t, sin 2t), unit as written; the smoothing in ilic.cpp gives it a coherence
+    Vec2f axis{
+        0}; // (cos 2t, sin 2t), unit as written; the smoothing in direction_field.cpp gives it a coherence
     std::uint32_t object = 0, via = 0;
     PixelKind kind = PixelKind::outside;
+    bool turned = false; // as a plain vector (paper_mode) it goes against axis_direction(axis)
 };
 using InformativeMap = Image<Informed>;
 
@@ -38,6 +41,8 @@ Vec2f axis_direction(Vec2f axis);
 Vec2f direction_axis(Vec2f direction); // (cos 2t, sin 2t) of a direction; zero for a zero one
 Vec2f canonical_direction(
     Vec2 direction); // unit and turned so that x > 0, or x = 0 and y > 0; (1, 0) for a zero one
+// Whether canonical_direction turns it round.
+bool is_turned(Vec2 direction);
 
 // A pixel that pass 2 paints: its centre sees a painted object with mix > 0.
 inline bool is_painted(const Seen& seen) { return seen.npr && seen.object != 0; }

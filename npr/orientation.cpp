@@ -165,7 +165,11 @@ Vec3 blend(const OrientationField& field, Vec3 position, Vec3 normal, std::span<
         other = unit_or_zero(axis_in_plane(frame, eval_axis_source(field.axis_source, position, normal)));
     if (field.share >= 1 || from_seeds.empty()) return axis_from_doubled(frame, normal, other);
     if (field.share > 0) seeds = unit_or_zero(seeds) * (1 - field.share) + other * field.share;
-    return axis_from_doubled(frame, normal, seeds);
+    const Vec3 axis = axis_from_doubled(frame, normal, seeds);
+    // Plain vectors keep the sign that the seeds gave them: the picture's smoothing counts on it.
+    if (field.style.vectors && glm::dot(axis, Vec3(from_seeds[0], from_seeds[1], from_seeds[2])) < 0)
+        return -axis;
+    return axis;
 }
 
 void measure_residual(const OrientationField& field, FieldReport& report) {

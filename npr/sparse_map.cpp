@@ -214,6 +214,7 @@ void orient_strokes(SparseMap& sparse, const World&, const GBuffer& gbuffer, con
                 else if (const auto steps = footprint_offset(gbuffer.seen.at(x, y), axis))
                     direction = *steps;
                 source.direction = canonical_direction(direction);
+                source.turned = is_turned(direction);
             }
         }
     });

@@ -94,6 +94,28 @@ TEST(InformativeMap, BlendsAxesAcross180Degrees) {
     EXPECT_NEAR(std::abs(between.y), 1, 1e-5);
 }
 
+// As BlendsAxesAcross180Degrees, but plain vectors: both of the seeds' field point down, whatever sign rule
+// the maps are written by, and so does their mean.
+TEST(InformativeMap, PlainVectorsKeepTheSignOfTheField) {
+    PaintStyle style;
+    style.vectors = true;
+    const World world = world_with_objects(1, style);
+    const GBuffer g = gbuffer_of(9, 512, [](int, int) { return 1; });
+    SparseMap sparse(9, 512);
+    for (const auto& [x, degrees] : {std::pair{2, 80.0}, std::pair{6, 100.0}}) {
+        const Vec2 direction(std::cos(degrees * pi / 180), std::sin(degrees * pi / 180));
+        SourcePixel& s = sparse.at(x, 100);
+        s.photon = x;
+        s.object = 1;
+        s.direction = canonical_direction(direction);
+        s.turned = is_turned(direction);
+    }
+    EXPECT_NE(sparse.at(2, 100).turned, sparse.at(6, 100).turned);
+    const InformativeMap map = make_informative_map(sparse, world, g, 1);
+    EXPECT_NEAR(std::abs(axis_direction(map.at(4, 100).axis).y), 1, 1e-5);
+    EXPECT_FALSE(map.at(4, 100).turned);
+}
+
 TEST(InformativeMap, FillsFromAnotherViewOfTheObjectWhereARegionHasNoSource) {
     const World world = world_with_objects(1, {});
     GBuffer g = gbuffer_of(32, 32, [](int, int) { return 1; });

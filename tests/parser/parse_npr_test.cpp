@@ -80,6 +80,10 @@ TEST(ParseNpr, PaperModeChangesTheBaseAlone) {
     EXPECT_TRUE(s.paper_mode && s.vectors && s.box_weights);
     EXPECT_EQ(s.length, 33); // said here, though before
     EXPECT_EQ(s.edge, 0);
+    EXPECT_EQ(s.cell, 1);
+    EXPECT_EQ(s.noise_lightness, 0.2);
+    EXPECT_EQ(field_windows(s), Vec2(15, 7)); // along curvature, too
+    EXPECT_EQ(style_of("paper_mode on style ilic").edge, 0);
     EXPECT_EQ(s.fill, Fill::random);
     EXPECT_EQ(style_of("", "global_settings { npr { paper_mode on } }").length, 20);
     EXPECT_EQ(style_of("paper_mode off", "global_settings { npr { paper_mode on } }").length, 26);
