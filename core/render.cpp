@@ -157,6 +157,8 @@ bool wants_more(const Job& job, const std::vector<PixelSums>& first, int x, int 
     for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
             if (!job.window.contains(x + dx, y + dy)) continue;
+            // Without pruning such a pixel may hold samples through a gap; they must not count here either.
+            if (wholly_painted(job, x + dx, y + dy)) continue;
             const PixelSums& other = first[job.index(x + dx, y + dy)];
             if (other.plain.count == 0) continue;
             if (contrasts(mine, mean_radiance(other.plain), job.settings.render.contrast)) return true;
@@ -217,7 +219,7 @@ T joined(const PixelSums& sums, float coverage, T PixelSums::Group::*what) {
 void write_pixel(const Job& job, int x, int y, RenderResult& result) {
     const PixelSums& sums = job.sums[job.index(x, y)];
     const float coverage = job.gbuffer.coverage.at(x, y);
-    if (sums.count() == 0) return;
+    if (sums.count() == 0 || wholly_painted(job, x, y)) return;
     result.layer.color.at(x, y) = joined(sums, coverage, &PixelSums::Group::radiance);
     result.layer.alpha.at(x, y) = std::clamp(joined(sums, coverage, &PixelSums::Group::alpha), 0.0f, 1.0f);
     if (!result.parts.wanted) return;
