@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "npr/noise_cells.h"
+
+#include "core/rng.h"
+#include "npr/cells.h"
+
+namespace pnr {
+
+namespace {
+
+CellRecord make_record(const RegionWork& work, const PaintLayer& coat, Color base, std::uint64_t hash,
+                       float priority) {
+    CellRecord record;
+    record.base = base;
+    record.deviates = work.style.paper_mode ? cell_uniform_deviates(hash) : cell_deviates(hash);
+    record.height = unit_float(hash_words(hash, 20));
+    record.priority = priority;
+    record.weight = std::exp(std::max(-690.0, coat.edge * (static_cast<double>(priority) - 1)));
+    return record;
+}
+
+} // namespace
+
+std::vector<CellRecord> make_pixel_cells(RegionWork& work, const PaintLayer& coat, const Image<Color>& base,
+                                         double cell, int coat_number) {
+    const auto side = static_cast<int>(std::max(1L, std::lround(cell)));
+    std::vector<CellRecord> records(base.pixels.size());
+    const std::uint64_t key = hash_words(hash_words(work.seed, static_cast<std::uint64_t>(Pass::noise)),
+                                         static_cast<std::uint64_t>(coat_number));
+    for (int y = 0; y < base.height; ++y) {
+        for (int x = 0; x < base.width; ++x) {
+            const std::uint64_t place = static_cast<std::uint64_t>((work.region.box.y0 + y) / side) << 32 |
+                                        static_cast<std::uint64_t>((work.region.box.x0 + x) / side);
+            const std::uint64_t hash = hash_words(key, place);
+            records[static_cast<std::size_t>(y) * static_cast<std::size_t>(base.width) +
+                    static_cast<std::size_t>(x)] =
+                make_record(work, coat, base.at(x, y), hash, unit_float(hash_words(hash, 1)));
+        }
+    }
+    for_each_canvas_row(work, [&](int x, int y, std::int64_t) {
+        work.canvas.at(x + work.canvas.rim, y + work.canvas.rim).cell =
+            static_cast<std::uint32_t>((y / work.scale) * base.width + x / work.scale);
+    });
+    return records;
+}
+
+std::vector<CellRecord> make_site_cells(RegionWork& work, const PaintLayer& coat, const Image<Color>& base,
+                                        const SparseMap& sparse, const Regions& regions, std::uint32_t label,
+                                        double cell, int coat_number) {
+    const SiteGrid grid = build_site_grid(
+        make_cell_sites(sparse, regions, label, cell, work.seed, coat_number), work.region.box, cell);
+    std::vector<CellRecord> records;
+    records.reserve(grid.sites.size());
+    for (const CellSite& site : grid.sites) {
+        const int x = std::clamp(static_cast<int>(site.at.x) - work.region.box.x0, 0, base.width - 1);
+        const int y = std::clamp(static_cast<int>(site.at.y) - work.region.box.y0, 0, base.height - 1);
+        records.push_back(make_record(work, coat, base.at(x, y), site.hash, site.priority));
+    }
+    const float inverse = 1.0f / static_cast<float>(work.scale);
+    const Vec2f corner(work.region.box.x0, work.region.box.y0);
+    for_each_canvas_row(work, [&](int x, int y, std::int64_t) {
+        work.canvas.at(x + work.canvas.rim, y + work.canvas.rim).cell =
+            nearest_site(grid, corner + Vec2f(Vec2(x + 0.5, y + 0.5)) * inverse);
+    });
+    return records;
+}
+
+} // namespace pnr
