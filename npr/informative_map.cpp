@@ -173,12 +173,12 @@ InformativeMap make_informative_map(const SparseMap& sparse, const World& world,
                     continue;
                 }
                 auto match = NearestSources::find(nearest.regions, region, x, y, found);
-                // A reflection too small to hold a source takes from the object's other views.
+                // A region without a source, such as a small reflection, has its own light and takes the
+                // direction from the object's other views.
+                pixel.radiance = match ? rows.sources[*match].radiance : source.radiance;
                 if (!match) match = NearestSources::find(nearest.objects, seen.object, x, y, found);
                 pixel.axis = match ? rows.sources[*match].axis : Vec2f(1, 0);
-                if (!match) continue;
-                pixel.radiance = rows.sources[*match].radiance;
-                pixel.turned = is_turned(Vec2(rows.sources[*match].direction));
+                pixel.turned = match && is_turned(Vec2(rows.sources[*match].direction));
             }
         }
         const std::int64_t done = rows_done += last - first;

@@ -12,7 +12,9 @@
 
 namespace pnr {
 
-// One source photon a pixel, the nearest to the viewer; elsewhere photon is -1 and all else 0.
+// One source photon a pixel, the nearest to the viewer; elsewhere photon is -1 and all else 0, but that
+// painted pixels of a region (object and via) without any source carry object, via and the radiance of their
+// own seen point.
 struct SourcePixel {
     std::int32_t photon = -1; // index into PhotonMap::photons
     Color radiance{0};        // leaving the photon's point towards the viewer

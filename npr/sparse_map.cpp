@@ -5,12 +5,14 @@
 
 #include <atomic>
 #include <map>
+#include <set>
 
 namespace pnr {
 
 namespace {
 
-constexpr double depth_tolerance = 0.02; // of the G-buffer's z: design.md section 5
+constexpr std::uint64_t bare_stream = 1ull << 61; // random numbers of pixels, apart from those of photons
+constexpr double depth_tolerance = 0.02;          // of the G-buffer's z: design.md section 5
 
 // A photon that may become the source of a pixel.
 struct Candidate {
@@ -161,16 +163,30 @@ Vec3 toward_viewer_of(const GBuffer& gbuffer, const Seen& seen, Vec3 position) {
     return glm::normalize(camera.location - position);
 }
 
+// Marks the painted pixels of regions that no photon came to: what they show must take its colour from
+// itself.
+void mark_bare_regions(const GBuffer& gbuffer, SparseMap& sparse) {
+    std::set<std::uint64_t> regions;
+    for (const SourcePixel& s : sparse.pixels)
+        if (s.photon >= 0) regions.insert(region_key(s.object, s.via));
+    for (std::size_t i = 0; i < sparse.pixels.size(); ++i) {
+        const Seen& seen = gbuffer.seen.pixels[i];
+        if (!is_painted(seen) || regions.contains(region_key(seen.object, seen.via))) continue;
+        sparse.pixels[i].object = seen.object;
+        sparse.pixels[i].via = seen.via;
+    }
+}
+
 bool is_finite(Color c) { return std::isfinite(c.x) && std::isfinite(c.y) && std::isfinite(c.z); }
 
 } // namespace
 
 SparseMap make_sparse_map(const World& world, const GBuffer& gbuffer, const PhotonMap& map,
                           const Settings& settings, const Progress& progress) {
-    if (map.normals.size() != map.photons.size() || map.photons.empty())
-        return SparseMap(gbuffer.seen.width,
-                         gbuffer.seen.height); // traced for a scene that was not painted then
-    SparseMap sparse = keep_nearest(gbuffer, collect_candidates(world, gbuffer, map));
+    SparseMap sparse(gbuffer.seen.width, gbuffer.seen.height);
+    if (map.normals.size() == map.photons.size()) // else traced for a scene that was not painted then
+        sparse = keep_nearest(gbuffer, collect_candidates(world, gbuffer, map));
+    mark_bare_regions(gbuffer, sparse);
 
     const GatherSettings gather = default_gather(world, map, settings.photons);
     std::atomic<std::int64_t> rows_done{0};
@@ -180,15 +196,19 @@ SparseMap make_sparse_map(const World& world, const GBuffer& gbuffer, const Phot
             for (int x = 0; x < sparse.width; ++x) {
                 const int y = static_cast<int>(row);
                 SourcePixel& source = sparse.at(x, y);
-                if (source.photon < 0) continue;
+                if (source.object == 0) continue;
                 const Seen& seen = gbuffer.seen.at(x, y);
-                const auto photon = static_cast<std::size_t>(source.photon);
-                const Vec3 position(map.photons[photon].position);
+                const bool own = source.photon < 0;
+                const auto photon = static_cast<std::size_t>(own ? 0 : source.photon);
+                const Vec3 position(own ? seen.position : map.photons[photon].position);
+                const Vec3 normal(own ? seen.normal : map.normals[photon]);
                 // Hashed from the photon alone: its colour stays when the camera moves, but for the view's
                 // own share.
-                Rng rng = make_rng(settings.render.seed, Pass::paint, photon);
-                const Color light = radiance_at(world, map, gather, position, Vec3(map.normals[photon]),
-                                                seen.surface, toward_viewer_of(gbuffer, seen, position),
+                const std::uint64_t pixel =
+                    static_cast<std::uint64_t>(row) << 32 | static_cast<std::uint64_t>(x) | bare_stream;
+                Rng rng = make_rng(settings.render.seed, Pass::paint, own ? pixel : photon);
+                const Color light = radiance_at(world, map, gather, position, normal, seen.surface,
+                                                toward_viewer_of(gbuffer, seen, position),
                                                 settings.render.shadow_samples, rng, scratch);
                 source.radiance = is_finite(light) ? glm::max(light, Color(0)) : Color(0);
             }

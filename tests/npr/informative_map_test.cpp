@@ -116,15 +116,17 @@ TEST(InformativeMap, PlainVectorsKeepTheSignOfTheField) {
     EXPECT_FALSE(map.at(4, 100).turned);
 }
 
-TEST(InformativeMap, FillsFromAnotherViewOfTheObjectWhereARegionHasNoSource) {
+TEST(InformativeMap, ARegionWithoutASourceHasItsOwnLightAndTheObjectsDirection) {
     const World world = world_with_objects(1, {});
     GBuffer g = gbuffer_of(32, 32, [](int, int) { return 1; });
     for (int y = 0; y < 32; ++y) g.seen.at(31, y).via = 3;
     SparseMap sparse(32, 32);
-    sparse.at(5, 5) = {0, Color(0.25f), {1, 0}, {5.5f, 5.5f}, 1, 1, 0};
+    sparse.at(5, 5) = {0, Color(0.25f), {0, 1}, {5.5f, 5.5f}, 1, 1, 0};
+    sparse.at(31, 9).radiance = Color(0.75f); // the sparse map's word for it
     const InformativeMap map = make_informative_map(sparse, world, g, 1);
     EXPECT_EQ(map.at(31, 9).kind, PixelKind::filled);
-    EXPECT_EQ(map.at(31, 9).radiance, Color(0.25f));
+    EXPECT_EQ(map.at(31, 9).radiance, Color(0.75f));
+    EXPECT_NEAR(glm::distance(axis_direction(map.at(31, 9).axis), Vec2f(0, 1)), 0, 1e-6);
 }
 
 TEST(InformativeMap, RandomFillIsTheSameForAnyNumberOfThreads) {

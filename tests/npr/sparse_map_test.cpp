@@ -166,6 +166,26 @@ TEST(SparseMap, AMirrorShowsSourcesAndStrokesOfTheMirroredBall) {
     EXPECT_GT(lit, 100);
 }
 
+TEST(SparseMap, ARegionWithoutAPhotonCarriesItsOwnLight) {
+    const Picture p = ball_in_a_mirror();
+    for (const bool some : {false, true}) {
+        const PhotonMap map = some ? photons_on_ball(p, 6000) : PhotonMap{};
+        const SparseMap sparse = make_sparse_map(p.world, p.gbuffer, map, {});
+        EXPECT_EQ(count_sources(sparse) > 0, some);
+        int carried = 0, painted = 0;
+        for (std::size_t i = 0; i < sparse.pixels.size(); ++i) {
+            painted += is_painted(p.gbuffer.seen.pixels[i]) ? 1 : 0;
+            if (sparse.pixels[i].photon >= 0 || sparse.pixels[i].object == 0) continue;
+            ++carried;
+            EXPECT_TRUE(is_painted(p.gbuffer.seen.pixels[i]));
+        }
+        EXPECT_EQ(carried, some ? 0 : painted);
+        float brightest = 0;
+        for (const SourcePixel& s : sparse.pixels) brightest = std::max(brightest, s.radiance.y);
+        EXPECT_GT(brightest, 0);
+    }
+}
+
 TEST(SparseMap, TheSameForAnyNumberOfThreads) {
     const Picture p = ball_in_a_mirror();
     PhotonMap map = photons_on_ball(p, 9000); // more than one chunk
