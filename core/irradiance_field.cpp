@@ -5,6 +5,7 @@
 #include "core/radiance.h"
 
 #include <atomic>
+#include <bit>
 #include <mutex>
 #include <unordered_map>
 
@@ -14,15 +15,21 @@ namespace {
 // Strata of a final gather: rings in elevation, sectors in azimuth; sectors near pi times the rings make them
 // even.
 constexpr int rings = 11, sectors = 34;
+// Strata where a point gathers for itself alone, without gradients.
+constexpr int own_rings = 5, own_sectors = 16;
 // Share of the mean distance to what a record sees within which it is trusted.
 constexpr double trusted_share = 0.35;
 // A level's records reach so many of its spacings.
 constexpr double reach_in_spacings = 1.75;
+// Share of the map's gather radius within which surfaces that gather rays meet are sampled anew.
+constexpr double near_share = 0.4;
 // Sum of weights that is enough.
 constexpr float enough = 0.7f;
 // Cosine of the largest angle between a record's normal and the point's.
 constexpr float least_aligned = 0.9f;
 constexpr int most_levels = 4;
+// Sum of trusted weights from which on a point need not gather for itself.
+constexpr float sure_weight = 0.05f;
 // Weight of a record where it is not to be trusted, if no other is.
 constexpr float last_resort = 1e-5f;
 // One in so many photons gets its irradiance computed beforehand, from so many neighbours.
@@ -188,37 +195,70 @@ Color lit_irradiance(const IrradianceField& field, Vec3 position, Vec3 normal,
     return Color{0};
 }
 
+// What the points share that gather rays are shot from.
+struct GatherScene {
+    const IrradianceField& field;
+    const World& world;
+    const PhotonMap& map;
+};
+
+// Direct and caustic light that a matt surface reflects: all but what the next ray of a path is to bring.
+Color near_light(const GatherScene& scene, const Hit& hit, const Bsdf& matt, Vec3 outgoing, Rng& rng,
+                 std::vector<Neighbour>& scratch) {
+    const Color direct = direct_light(scene.world, hit, matt, outgoing, 1, rng);
+    if (scene.map.caustic.count == 0) return direct;
+    const GatherSettings both{
+        lit_neighbours, scene.map.radius, GatherKernel::epanechnikov, false, true, true, 0, false};
+    return direct + gather(scene.world, scene.map, caustic_gather(scene.map, both), hit.position, matt,
+                           outgoing, scratch);
+}
+
 // Radiance that a gather ray brings: reflected by the first diffuse surface, seen straight or through
-// specular ones. What emitters send is left out: it is direct or caustic light.
-Color gathered_radiance(const IrradianceField& field, const World& world, Ray ray, Rng& rng, double& distance,
+// specular ones. What emitters send is left out: it is direct or caustic light. A surface met nearer than the
+// width over which the photons' light is known is sampled anew, and the ray goes on from there [Christensen
+// 1999]; else light from round a corner would shine into it.
+Color gathered_radiance(const GatherScene& scene, Ray ray, Rng& rng, double& distance,
                         std::vector<Neighbour>& scratch) {
-    constexpr int most_bounces = 8; // specular ones
-    Color throughput{1};
+    constexpr int most_bounces = 8; // specular ones, and near
+    constexpr int most_near = 4;
+    const World& world = scene.world;
+    const double near = near_share * scene.map.radius;
+    Color throughput{1}, found{0};
     distance = infinity;
-    for (int bounce = 0; bounce < most_bounces; ++bounce) {
+    for (int bounce = 0, scattered = 0; bounce < most_bounces; ++bounce) {
         const std::optional<Hit> hit = closest_hit(world, ray, RayKind::specular);
-        if (!hit) return throughput * world.background;
+        if (!hit) return found + throughput * world.background;
         if (bounce == 0) distance = hit->t;
-        if (world.surfaces[hit->surface].light >= 0) return Color{0};
+        if (world.surfaces[hit->surface].light >= 0) return found;
         const Vec3 outgoing = -ray.direction;
         const Bsdf bsdf = make_bsdf(world, *hit, outgoing);
         if (bounce > 0) throughput *= segment_transmittance(world, *hit, bsdf, hit->t);
         const double spread = has_diffuse(bsdf) ? max_component(bsdf.diffuse + bsdf.glossy) : 0.f;
         const double mirror = max_component(bsdf.mirror), transmit = max_component(bsdf.transmit);
         const double sum = spread + mirror + transmit;
-        if (!(sum > 0)) return throughput * bsdf.emission;
+        if (!(sum > 0)) return found + throughput * bsdf.emission;
         const double u = mirror + transmit > 0 ? rng.uniform() * sum : 0;
         if (u < spread || mirror + transmit == 0) {
-            const Color reflected = (bsdf.diffuse + bsdf.glossy) / static_cast<float>(pi) *
-                                    lit_irradiance(field, hit->position, bsdf.geometric, scratch);
-            return throughput * (bsdf.emission + reflected * static_cast<float>(sum / spread));
+            found += throughput * bsdf.emission;
+            throughput *= static_cast<float>(sum / spread);
+            Bsdf matt;
+            matt.normal = matt.geometric = bsdf.geometric;
+            matt.diffuse = bsdf.diffuse + bsdf.glossy;
+            if (hit->t >= near || scattered == most_near)
+                return found + throughput * matt.diffuse / static_cast<float>(pi) *
+                                   lit_irradiance(scene.field, hit->position, matt.normal, scratch);
+            found += throughput * near_light(scene, *hit, matt, outgoing, rng, scratch);
+            throughput *= matt.diffuse;
+            ray = leave(*hit, square_to_cosine(rng.uniform2(), make_frame(matt.normal)));
+            ++scattered;
+            continue;
         }
         const bool reflect = u < spread + mirror || transmit == 0;
         const ChainBranch branch = reflect ? ChainBranch::mirror : ChainBranch::transmit;
         throughput *= branch_weight(bsdf, branch) * static_cast<float>(sum / (reflect ? mirror : transmit));
         ray = leave(*hit, branch_direction(bsdf, outgoing, branch));
     }
-    return Color{0};
+    return found;
 }
 
 // ---- records
@@ -229,23 +269,32 @@ struct GatherRays {
     std::array<std::array<double, sectors>, rings> distance;
 };
 
-GatherRays shoot(const IrradianceField& field, const World& world, const Hit& hit, const Frame& frame,
-                 Rng& rng) {
+// A direction of the stratum in ring j of `ring_count`, sector k of `sector_count`; u places it there.
+Vec3 stratum_direction(int j, int ring_count, int k, int sector_count, Vec2 u, const Frame& frame) {
+    const double sin2 = (j + u.x) / ring_count, angle = 2 * pi * (k + u.y) / sector_count;
+    const double sine = std::sqrt(sin2);
+    return glm::normalize(sine * std::cos(angle) * frame.x + sine * std::sin(angle) * frame.y +
+                          std::sqrt(1 - sin2) * frame.z);
+}
+
+GatherRays shoot(const GatherScene& scene, const Hit& hit, const Frame& frame, Rng& rng) {
     GatherRays rays;
     std::vector<Neighbour> scratch;
     for (int j = 0; j < rings; ++j)
         for (int k = 0; k < sectors; ++k) {
-            const Vec2 u = rng.uniform2();
-            const double sin2 = (j + u.x) / rings, angle = 2 * pi * (k + u.y) / sectors;
-            const double sine = std::sqrt(sin2);
-            const Vec3 direction =
-                glm::normalize(sine * std::cos(angle) * frame.x + sine * std::sin(angle) * frame.y +
-                               std::sqrt(1 - sin2) * frame.z);
+            const Vec3 direction = stratum_direction(j, rings, k, sectors, rng.uniform2(), frame);
             const auto r = static_cast<std::size_t>(j), s = static_cast<std::size_t>(k);
             rays.radiance[r][s] =
-                gathered_radiance(field, world, leave(hit, direction), rng, rays.distance[r][s], scratch);
+                gathered_radiance(scene, leave(hit, direction), rng, rays.distance[r][s], scratch);
         }
     return rays;
+}
+
+Color irradiance_of(const GatherRays& rays) {
+    Color sum{0};
+    for (const auto& ring : rays.radiance)
+        for (const Color c : ring) sum += c;
+    return sum * static_cast<float>(pi / (rings * sectors));
 }
 
 // Adds the outer product of a vector and a colour to one gradient a channel.
@@ -253,8 +302,9 @@ void add(std::array<glm::dvec3, 3>& gradient, Vec3 v, Color c, double factor) {
     for (int i = 0; i < 3; ++i) gradient[static_cast<std::size_t>(i)] += v * (factor * c[i]);
 }
 
-// The gradients of Ward and Heckbert 1992, equations for cosine-distributed strata.
-void find_gradients(const GatherRays& rays, const Frame& frame, Record& record) {
+// The gradients of Ward and Heckbert 1992, equations for cosine-distributed strata. Rays count as no shorter
+// than `least`, for a few short ones in a corner would foretell more than the truth.
+void find_gradients(const GatherRays& rays, const Frame& frame, double least, Record& record) {
     std::array<glm::dvec3, 3> moved{}, turned{};
     for (int k = 0; k < sectors; ++k) {
         const auto s = static_cast<std::size_t>(k),
@@ -272,12 +322,12 @@ void find_gradients(const GatherRays& rays, const Frame& frame, Record& record) 
             const double sine_low = std::sqrt(static_cast<double>(j) / rings);
             const double sine_high = std::sqrt((j + 1.0) / rings);
             if (j > 0) {
-                const double near = std::min(rays.distance[r][s], rays.distance[r - 1][s]);
+                const double near = std::max(least, std::min(rays.distance[r][s], rays.distance[r - 1][s]));
                 const double cos2 = 1 - sine_low * sine_low;
                 add(moved, outward, here - rays.radiance[r - 1][s],
                     2 * pi / sectors * sine_low * cos2 / near);
             }
-            const double near = std::min(rays.distance[r][s], rays.distance[r][before]);
+            const double near = std::max(least, std::min(rays.distance[r][s], rays.distance[r][before]));
             add(moved, across_low, here - rays.radiance[r][before], (sine_high - sine_low) / near);
         }
     }
@@ -287,13 +337,18 @@ void find_gradients(const GatherRays& rays, const Frame& frame, Record& record) 
     }
 }
 
-// How far a record may be trusted: a share of the harmonic mean distance, and no farther than its own
+// How far a record may be trusted: a share of the harmonic mean distance, no farther than to the nearest
+// thing seen (a round thing's foot is narrow, and the mean distance knows nothing of it) and than its own
 // gradient allows.
 float trusted_reach(const GatherRays& rays, const Record& record, double scene_radius) {
-    double inverse = 0;
+    double inverse = 0, least = infinity;
     for (const auto& ring : rays.distance)
-        for (const double d : ring) inverse += 1 / std::max(d, 1e-9 * scene_radius);
+        for (const double d : ring) {
+            inverse += 1 / std::max(d, 1e-9 * scene_radius);
+            least = std::min(least, d);
+        }
     double reach = inverse > 0 ? trusted_share * rings * sectors / inverse : scene_radius;
+    reach = std::min(reach, least);
     const Vec3f slope = record.moved[0] * 0.2126f + record.moved[1] * 0.7152f + record.moved[2] * 0.0722f;
     const double steep = glm::length(slope);
     if (steep > 0) reach = std::min(reach, luminance(record.irradiance) / steep);
@@ -307,11 +362,9 @@ Record make_record(const IrradianceField& field, const World& world, const Photo
     if (!hit) return record; // cannot be: the site was made from such a hit
     Rng rng = make_rng(field.seed, Pass::render, hash_words(site.photon, 0x6a09e667f3bcc908ull));
     const Frame frame = make_frame(Vec3(site.normal));
-    const GatherRays rays = shoot(field, world, *hit, frame, rng);
-    for (const auto& ring : rays.radiance)
-        for (const Color c : ring) record.irradiance += c;
-    record.irradiance *= static_cast<float>(pi / (rings * sectors));
-    find_gradients(rays, frame, record);
+    const GatherRays rays = shoot({field, world, map}, *hit, frame, rng);
+    record.irradiance = irradiance_of(rays);
+    find_gradients(rays, frame, field.levels.back().spacing, record);
     record.reach = trusted_reach(rays, record, world.radius);
     return record;
 }
@@ -333,6 +386,7 @@ struct Blend {
     Color value{0}, foretold{0};
     std::array<Vec3f, 3> moved{}, turned{};
     Vec3f apart{0}, turn{0};
+    float sure = 0; // of the weight, what records are to be trusted with
 
     void add(const Record& record, const Site& site, Vec3f position, Vec3f normal, float w) {
         const Vec3f d = position - site.position, t = glm::cross(site.normal, normal);
@@ -406,11 +460,34 @@ FieldIrradiance field_irradiance(const IrradianceField& field, const World& worl
             // photon marks a site, and the density of the few there would show their places.
             const float fall = std::max(0.0f, 1 - distance / own), far = 1 - distance / reach;
             const float turn = (aligned - least_aligned) / (1 - least_aligned);
+            blend.sure += share * turn * fall * fall;
             blend.add(record, site, p, n, share * turn * (fall * fall + last_resort * far * far));
         }
     }
     if (!(blend.weight > 0)) return {};
-    return {blend.irradiance(), std::min(1.0f, blend.weight / (0.01f * last_resort))};
+    return {blend.irradiance(), std::min(1.0f, blend.weight / (0.01f * last_resort)),
+            std::min(1.0f, blend.sure / sure_weight)};
+}
+
+Color gathered_irradiance(const IrradianceField& field, const World& world, const PhotonMap& map,
+                          Vec3 position, Vec3 normal, std::vector<Neighbour>& scratch) {
+    Hit hit;
+    hit.position = position;
+    hit.normal = hit.shading_normal = normal;
+    hit.error = 0x1p-22 * world.radius;
+    std::uint64_t place = 0;
+    for (int i = 0; i < 3; ++i) place = hash_words(place, std::bit_cast<std::uint64_t>(position[i]));
+    Rng rng = make_rng(field.seed, Pass::render, place);
+    const GatherScene scene{field, world, map};
+    const Frame frame = make_frame(normal);
+    Color sum{0};
+    double distance = 0;
+    for (int j = 0; j < own_rings; ++j)
+        for (int k = 0; k < own_sectors; ++k) {
+            const Vec3 direction = stratum_direction(j, own_rings, k, own_sectors, rng.uniform2(), frame);
+            sum += gathered_radiance(scene, leave(hit, direction), rng, distance, scratch);
+        }
+    return sum * static_cast<float>(pi / (own_rings * own_sectors));
 }
 
 std::int64_t record_count(const IrradianceField& field) { return field.records; }

@@ -31,9 +31,16 @@ std::shared_ptr<const IrradianceField> make_irradiance_field(const World& world,
 struct FieldIrradiance {
     Color irradiance{0};
     float trust = 0;
+    // 1: records are close enough for what surrounds the point; less in narrow corners, where light changes
+    // faster than they tell and gathered_irradiance knows better.
+    float sure = 0;
 };
 FieldIrradiance field_irradiance(const IrradianceField& field, const World& world, const PhotonMap& map,
                                  Vec3 position, Vec3 normal, std::vector<Neighbour>& scratch);
+
+// The same irradiance by rays from the point itself: about a third of a record's cost.
+Color gathered_irradiance(const IrradianceField& field, const World& world, const PhotonMap& map,
+                          Vec3 position, Vec3 normal, std::vector<Neighbour>& scratch);
 
 // How many records have been computed so far, for statistics.
 std::int64_t record_count(const IrradianceField& field);

@@ -196,6 +196,50 @@ bool sees_hemisphere(Vec3 d, double distance, double radius, Vec3 axis) {
     return angle < cap + pi / 2;
 }
 
+// Far from a hemisphere its points are chosen by their area as seen from infinity: a disc's half and half an
+// ellipse. None falls in the missing half, so that the light that a point gets unshadowed hardly varies. Near
+// it the horizon cuts off too much of them, and directions serve better.
+constexpr double far_in_radii = 3;
+
+// Area of what is seen of the unit hemisphere from infinity, at this cosine to its axis.
+double seen_from_infinity(double cosine) { return pi * (1 + cosine) / 2; }
+
+bool by_seen_area(const Emitter& e, Vec3 d, double distance) {
+    return e.shape == EmitterShape::hemisphere && distance > far_in_radii * e.radius &&
+           glm::dot(d, e.axis) > -0.5 * distance;
+}
+
+// For `d` = position - centre, where by_seen_area.
+LightSample sample_far_hemisphere(const Light& light, Vec3 d, double distance, Vec2 u) {
+    const Emitter& e = *light.said.emitter;
+    const Vec3 toward = d / distance;
+    const double cosine = glm::dot(e.axis, toward);
+    Frame frame = make_frame(toward);
+    const Vec3 lean = e.axis - cosine * toward; // y points away from the axis, to the missing half
+    if (const double length = glm::length(lean); length > 1e-6) {
+        frame.y = lean / -length;
+        frame.x = glm::cross(frame.y, frame.z);
+    }
+    // Columns of the disc, from -h to h, become columns from -h to cosine h: all by the same factor.
+    const Vec2 disc = square_to_disc(u);
+    const double h = std::sqrt(std::max(0.0, 1 - disc.x * disc.x));
+    const double y = 0.5 * ((1 + cosine) * disc.y + (cosine - 1) * h);
+    const double z = std::sqrt(std::max(0.0, 1 - disc.x * disc.x - y * y));
+    const Vec3 normal = glm::normalize(disc.x * frame.x + y * frame.y + z * frame.z);
+    LightSample sample;
+    sample.point = light.said.position + e.radius * normal;
+    const Vec3 to = e.radius * normal - d;
+    sample.distance = glm::length(to);
+    sample.direction = to / sample.distance;
+    sample.error = emitter_error(light);
+    const double facing = -glm::dot(normal, sample.direction);
+    if (!(facing > 0) || !(z > 0)) return sample; // beyond the horizon
+    sample.pdf =
+        z * sample.distance * sample.distance / (facing * e.radius * e.radius * seen_from_infinity(cosine));
+    sample.irradiance = light.radiance * static_cast<float>(1 / sample.pdf);
+    return sample;
+}
+
 LightSample sample_sphere(const Light& light, Vec3 position, Vec2 u) {
     const Emitter& e = *light.said.emitter;
     LightSample sample;
@@ -204,6 +248,7 @@ LightSample sample_sphere(const Light& light, Vec3 position, Vec2 u) {
     if (!(distance > e.radius)) return sample; // inside an emitter there is only its black inner side
     const bool half = e.shape == EmitterShape::hemisphere;
     if (half && !sees_hemisphere(d, distance, e.radius, e.axis)) return sample;
+    if (by_seen_area(e, d, distance)) return sample_far_hemisphere(light, d, distance, u);
     const double cone = cone_of_sphere(e.radius, distance);
     const Frame frame = make_frame(-d / distance);
     sample.direction = square_to_cone(u, frame, cone);
@@ -351,6 +396,11 @@ double sample_light_pdf(const Light& light, Vec3 position, Vec3 on_light, Vec3 n
         const Vec3 d = position - light.said.position;
         const double distance = glm::length(d);
         if (!(distance > e.radius)) return 0;
+        if (by_seen_area(e, d, distance)) {
+            const double seen = seen_from_infinity(glm::dot(e.axis, d) / distance);
+            return std::max(0.0, glm::dot(normal, d) / distance) * distance2 /
+                   (cosine * e.radius * e.radius * seen);
+        }
         return 1 / (2 * pi * cone_of_sphere(e.radius, distance));
     }
     if (e.shape == EmitterShape::rectangle) {

@@ -38,8 +38,9 @@ struct LightSample {
     double pdf = 0; // solid angle at `position`; 0: a delta light
 };
 // Black when the light does not reach the position (behind a rectangle, outside a spot's cone). u in [0,
-// 1)^2. Spheres and the visible cap of a hemisphere are sampled by solid angle; points of a hemisphere's
-// missing half come back black with their pdf. Rectangles by solid angle [Urena et al. 2013], discs by area.
+// 1)^2. Spheres are sampled by solid angle, and so are hemispheres from near, where points of the missing
+// half come back black with their pdf; from afar by the area seen. Rectangles by solid angle [Urena et al.
+// 2013], discs by area.
 LightSample sample_light(const Light& light, Vec3 position, Vec2 u);
 // Solid-angle density with which sample_light would have chosen the emitter's point `on_light` (normal there
 // `normal`).

@@ -148,7 +148,11 @@ Color density_estimate(const PhotonMap& map, const GatherSettings& settings, Vec
 // them where the field knows too little.
 Color field_estimate(const World& world, const PhotonMap& map, const GatherSettings& settings, Vec3 position,
                      const Bsdf& bsdf, Vec3 outgoing, std::vector<Neighbour>& scratch) {
-    const FieldIrradiance found = field_irradiance(*map.field, world, map, position, bsdf.normal, scratch);
+    FieldIrradiance found = field_irradiance(*map.field, world, map, position, bsdf.normal, scratch);
+    if (settings.sharp && found.sure < 1 && !is_black(bsdf.diffuse)) {
+        const Color own = gathered_irradiance(*map.field, world, map, position, bsdf.normal, scratch);
+        found = {glm::mix(own, found.irradiance, found.sure), 1, 1};
+    }
     Color sum = bsdf.diffuse * found.irradiance * (found.trust / static_cast<float>(pi));
     Bsdf rest = bsdf;
     rest.diffuse *= 1 - found.trust;

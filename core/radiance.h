@@ -20,7 +20,8 @@ struct GatherSettings {
     bool direct = false; // also photons of path `direct` (else those are left to shadow rays)
     bool indirect = true, caustic = true;
     int least = 0; // where the cap holds fewer photons it is doubled, twice at most (POV-Ray's gather min)
-    bool field = true; // indirect light from PhotonMap::field where the map has one, instead of its density
+    bool field = true;  // indirect light from PhotonMap::field where the map has one, instead of its density
+    bool sharp = false; // gather rays from the point itself where the field's records lie too far apart
 };
 
 // Photon density estimate of the reflected radiance: sum of f_r * flux * kernel. Consistent: when the k-th
