@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <new>
 
 namespace pnr {
 
@@ -70,8 +71,14 @@ int run_program(const std::vector<std::string>& arguments) {
     } catch (const FileError& error) {
         print_error(error.what());
         return exit_file;
+    } catch (const std::bad_alloc&) {
+        print_error("memory ran out; a smaller picture, fewer photons or a smaller scene need less");
+        return exit_render;
     } catch (const std::exception& error) {
         print_error(fmt::format("render failed: {}", error.what()));
+        return exit_render;
+    } catch (...) {
+        print_error("render failed for a reason that has no name");
         return exit_render;
     }
 }

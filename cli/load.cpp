@@ -51,7 +51,6 @@ void check_readable(const std::string& name) {
 
 // Rays a pixel and shadow rays a light.
 void apply_quality(RenderSettings& render, Quality quality) {
-    render.quality = quality;
     if (quality == Quality::draft) {
         render.samples_min = 1;
         render.samples_max = 4;

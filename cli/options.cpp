@@ -146,7 +146,8 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
                      "How PNG pictures treat light above 1");
     add_choice<Quality>(app, "--quality", options.quality,
                         {{"draft", Quality::draft}, {"normal", Quality::normal}, {"high", Quality::high}},
-                        "Fewer or more samples");
+                        "Rays a pixel and shadow rays a light: draft 1 to 4 and 4, normal the scene's own (4 "
+                        "to 16 and 16), high 16 to 64 and 64");
     add_choice<Integrator>(app, "--integrator", options.integrator,
                            {{"photons", Integrator::photons}, {"path", Integrator::path}},
                            "How photoreal light is found: the photon map, or the slow path-traced reference");

@@ -27,6 +27,9 @@ struct FrameRange {
     int first = 1, last = 1, step = 1;
 };
 
+// What --quality changes: rays a pixel and shadow rays a light (apply_quality in load.cpp).
+enum class Quality { draft, normal, high };
+
 struct Options {
     std::string command;                        // render, check, plan, pick
     std::vector<std::string> scenes;            // empty: the embedded default scene; "-": standard input

@@ -27,17 +27,11 @@ Image<Color> cut(const Image<Color>& image, const PixelRect& window) {
     return small;
 }
 
-// What the scene's author meant by a value v of the picture, as linear light (Scene::assumed_gamma).
-float to_linear(float v, double assumed_gamma) {
-    if (assumed_gamma == 1 || v <= 0) return v;
-    return assumed_gamma == 0 ? srgb_decode(v) : static_cast<float>(std::pow(v, assumed_gamma));
-}
-
 Image<Color> linear_picture(const Scene& scene, const Rendering& r) {
     Image<Color> picture = r.picture.color;
     if (scene.assumed_gamma == 1) return picture;
     for (Color& color : picture.pixels)
-        for (int c = 0; c < 3; ++c) color[c] = to_linear(color[c], scene.assumed_gamma);
+        for (int c = 0; c < 3; ++c) color[c] = linear_from_working(color[c], scene.assumed_gamma);
     return picture;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/stats.h"
 
+#include "core/geometry.h"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -39,6 +41,22 @@ Json paint_counts(const Rendering& r) {
             {"filled_pixels", count(PixelKind::filled)}};
 }
 
+// Bytes a triangle are those of the whole BVH: 0 where the scene has no triangles.
+Json ray_counts(const Rendering& r) {
+    Json rays{{"camera", r.rendered.camera_rays}, {"gathers", r.rendered.gathers}};
+    if (!r.world.geometry) return rays;
+    const GeometryStats stats = geometry_stats(*r.world.geometry);
+    rays["triangles"] = stats.triangles;
+    rays["shapes"] = stats.shapes;
+    rays["instances"] = stats.instances;
+    rays["unbounded"] = stats.unbounded;
+    rays["bvh_bytes"] = stats.bytes;
+    rays["bytes_per_triangle"] =
+        stats.triangles > 0 ? static_cast<double>(stats.bytes) / static_cast<double>(stats.triangles) : 0.0;
+    rays["build_s"] = stats.build_s;
+    return rays;
+}
+
 Json plan_object(const Plan& plan) {
     Json left_out = Json::array();
     for (const LeftOut& left : plan.left_out) left_out.push_back({{"what", left.what}, {"why", left.why}});
@@ -67,7 +85,7 @@ std::string stats_json(const Scene& scene, const Rendering& r, const std::vector
         {"passes", passes},
         {"photons", photon_counts(r.photons)},
         {"npr", paint_counts(r)},
-        {"rays", {{"camera", r.rendered.camera_rays}, {"gathers", r.rendered.gathers}}},
+        {"rays", ray_counts(r)},
         {"numbers", {{"nan", r.faults.nan}, {"inf", r.faults.inf}, {"negative", r.faults.negative}}},
         {"plan", plan_object(r.plan)},
         {"error", {{"asked", 0}, {"reached", 0}}},

@@ -41,7 +41,7 @@ std::optional<Projected> project(const PictureView& view, Vec3 point);
 // the point is not in front of the camera.
 Vec2 project_direction(const PictureView& view, Vec3 point, Vec3 direction);
 
-// Pixel size of the picture when only the camera is known: width 512, height 512 |up| / |right|.
+// Pixel size of the picture when only the camera is known: width 512, height 512 |up| / |right|, rounded, at least 1.
 struct PictureSize {
     int width, height;
 };

@@ -4,6 +4,7 @@
 #include "core/bvh.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <map>
 
@@ -436,6 +437,7 @@ Bounds item_bounds(const GeometryItem& item) {
 }
 
 std::shared_ptr<const Geometry> make_geometry(std::vector<GeometryItem> items) {
+    const auto start = std::chrono::steady_clock::now();
     auto geometry = std::make_shared<Geometry>();
     Geometry& g = *geometry;
     g.items = std::move(items);
@@ -454,6 +456,7 @@ std::shared_ptr<const Geometry> make_geometry(std::vector<GeometryItem> items) {
     g.stats.triangles = static_cast<std::int64_t>(triangles);
     g.stats.unbounded = static_cast<std::int64_t>(g.unbounded.size());
     g.stats.bytes = static_cast<std::int64_t>(bytes);
+    g.stats.build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return geometry;
 }
 

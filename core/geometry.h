@@ -46,6 +46,7 @@ struct GeometryStats {
     std::int64_t triangles = 0; // in the BVHs; a shared mesh counts once
     std::int64_t shapes = 0, instances = 0, unbounded = 0;
     std::int64_t bytes = 0;             // of nodes and leaf data
+    double build_s = 0;                 // wall time of make_geometry
     std::uint32_t placed_triangles = 0; // in the scene's own BVH: primitives below this number
 };
 GeometryStats geometry_stats(const Geometry& geometry);

@@ -144,6 +144,15 @@ float srgb_decode(float encoded) {
     return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
+float working_from_linear(float linear, double assumed_gamma) {
+    if (assumed_gamma == 1 || !(linear > 0)) return linear;
+    return assumed_gamma == 0 ? srgb_encode(linear) : static_cast<float>(std::pow(linear, 1 / assumed_gamma));
+}
+float linear_from_working(float working, double assumed_gamma) {
+    if (assumed_gamma == 1 || !(working > 0)) return working;
+    return assumed_gamma == 0 ? srgb_decode(working) : static_cast<float>(std::pow(working, assumed_gamma));
+}
+
 Color shoulder(Color linear) {
     constexpr float start = 0.45f;
     const float m = max_component(linear);

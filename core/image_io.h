@@ -53,6 +53,9 @@ ImageFile read_exr(const std::filesystem::path& file);
 // sRGB transfer of a linear value in [0, 1] and back (IEC 61966-2-1).
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
+// Between linear light and a scene's working values (Scene::assumed_gamma). Not defined below 0: such values stay.
+float working_from_linear(float linear, double assumed_gamma);
+float linear_from_working(float working, double assumed_gamma);
 // The soft shoulder of `view shoulder`: up to 0.45 nothing changes, above it the largest channel m becomes
 // 1 - 0.55 exp(-(m - 0.45) / 0.55), which never reaches 1; the hue is kept.
 Color shoulder(Color linear);

@@ -33,8 +33,9 @@ struct ImagePattern { // colour from a picture; the map is not used
     ImageMapType map_type = ImageMapType::planar;
     bool once = false;              // outside the unit square: transparent instead of tiled
     bool interpolate = true;        // bilinear
+    bool as_stored = false;         // the file's 8-bit values are working values, as before POV-Ray 3.7
     SourceRef said_at;
-    std::shared_ptr<const Image<glm::vec4>> image; // linear Rec.709 and alpha; filled by build_world
+    std::shared_ptr<const Image<glm::vec4>> image; // working values (Scene::assumed_gamma) and alpha; filled by build_world
 };
 using Pattern = std::variant<UniformPattern, CheckerPattern, GradientPattern, ImagePattern>;
 

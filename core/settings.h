@@ -31,7 +31,6 @@ struct PhotonSettings {
     double radius = 0;    // largest gather radius in scene units; 0: from the scene and the count
 };
 
-enum class Quality { draft, normal, high };
 enum class Integrator { photons, path };
 enum class View { clip, shoulder };
 
@@ -44,7 +43,6 @@ struct RenderSettings {
     int max_trace_level = 10;       // specular chain length; POV-Ray scenes (`.pov`) get 5
     double adc_bailout = 1.0 / 255; // a chain of smaller weight than this is given up
     int shadow_samples = 16; // shadow rays to each area emitter, over a pixel's samples together at least
-    Quality quality = Quality::normal;
     Integrator integrator = Integrator::photons;
     View view = View::clip;
     double exposure = 0; // stops, for PNG alone

@@ -68,7 +68,7 @@ void require(bool fine, const SourceRef& where, const char* text) {
 struct Assets {
     std::map<std::string, std::shared_ptr<const MeshData>> meshes;
     std::map<const MeshData*, std::shared_ptr<const MeshData>> smooth;
-    std::map<std::string, std::shared_ptr<const Image<glm::vec4>>> images;
+    std::map<std::pair<std::string, bool>, std::shared_ptr<const Image<glm::vec4>>> images;
 
     std::shared_ptr<const MeshData> mesh(const Mesh& said) {
         std::shared_ptr<const MeshData> data = said.data;
@@ -81,9 +81,16 @@ struct Assets {
         return said.smooth && data->normals.empty() ? smoothed(data) : data;
     }
 
-    std::shared_ptr<const Image<glm::vec4>> image(const ImagePattern& said) {
-        auto& entry = images[said.file];
-        if (!entry) entry = std::make_shared<const Image<glm::vec4>>(read_image(said.file));
+    // In the scene's working values.
+    std::shared_ptr<const Image<glm::vec4>> image(const ImagePattern& said, double assumed_gamma) {
+        auto& entry = images[{said.file, said.as_stored}];
+        if (!entry) {
+            Image<glm::vec4> picture = read_image(said.file);
+            const double gamma = said.as_stored ? 0 : assumed_gamma; // 0: what the sRGB curve had decoded
+            for (glm::vec4& pixel : picture.pixels)
+                for (int c = 0; c < 3; ++c) pixel[c] = working_from_linear(pixel[c], gamma);
+            entry = std::make_shared<const Image<glm::vec4>>(std::move(picture));
+        }
         require(!entry->empty(), said.said_at, "the picture is empty");
         return entry;
     }
@@ -157,7 +164,7 @@ struct Builder {
         if (from.interior) material.interior = *from.interior;
         if (from.photons) material.photons = *from.photons;
         if (auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern))
-            picture->image = assets.image(*picture);
+            picture->image = assets.image(*picture, scene.assumed_gamma);
         world.materials.push_back(std::move(material));
         return static_cast<int>(world.materials.size()) - 1;
     }

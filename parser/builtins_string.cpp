@@ -16,6 +16,7 @@ void check_length(Parser& p, const Token& name, std::size_t length) {
     if (static_cast<std::int64_t>(length) > p.in.options.budgets.string_length)
         stop(p, name,
              fmt::format("the string is longer than {} characters", p.in.options.budgets.string_length));
+    charge_work(p, name, letters_work(length));
 }
 
 // str(value, length, precision): as C's %f with that many places, padded to `length`: with blanks, or with

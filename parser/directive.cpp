@@ -215,6 +215,7 @@ void include_directive(Parser& p, const Token& directive) {
     if (p.in.buffered) fail(p, p.in.buffer, "expected nothing behind the name of the file");
     Token at = name;
     at.chain = directive.chain;
+    charge_work(p, at, 1000); // looking for the file
     push_text(p, open_include(p, at, file), at);
 }
 
@@ -225,6 +226,7 @@ void version_directive(Parser& p) {
         if (peek(p).kind == TokenKind::word && !at_expression(p)) next(p);
     }
     p.in.version = parse_condition(p);
+    p.in.version_said = true;
     accept_semicolon(p);
 }
 

@@ -252,6 +252,7 @@ std::shared_ptr<ArrayValue> make_array(Parser& p, const Token& at, std::vector<i
     std::size_t elements = 1;
     for (const int size : dimensions) elements *= static_cast<std::size_t>(size);
     charge(p, at, elements * sizeof(Value));
+    charge_work(p, at, static_cast<std::int64_t>(elements) / 4);
     std::shared_ptr<ArrayValue> array(new ArrayValue, [ledger = p.in.bytes](ArrayValue* gone) {
         *ledger -= static_cast<std::int64_t>(gone->elements.size() * sizeof(Value));
         delete gone;
@@ -262,6 +263,8 @@ std::shared_ptr<ArrayValue> make_array(Parser& p, const Token& at, std::vector<i
 }
 
 Value stored_value(Parser& p, const Token& at, Value value) {
+    if (const auto* text = std::get_if<std::string>(&value.data))
+        charge_work(p, at, letters_work(text->size()));
     const auto* array = std::get_if<std::shared_ptr<ArrayValue>>(&value.data);
     if (!array) return value;
     if (array->use_count() > 1) return deep_copy(p, at, value, 1);
@@ -330,6 +333,13 @@ Nesting::Nesting(Parser& p, const Token& at) : in(p.in) {
         --in.used.nesting;
         stop(p, at, fmt::format("nested deeper than {} levels", in.options.budgets.nesting));
     }
+}
+
+void charge_work(Parser& p, const Token& at, std::int64_t tokens) {
+    p.in.used.tokens += tokens;
+    if (p.in.used.tokens > p.in.options.budgets.tokens)
+        stop(p, at, "arrays, strings and files take more work than a scene may ask for",
+             "does a loop make them without an end?");
 }
 
 void charge(Parser& p, const Token& at, std::size_t bytes) {

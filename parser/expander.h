@@ -126,6 +126,7 @@ struct Expander {
     std::unordered_set<std::uint64_t> reported; // hashes of (place, message)
     std::vector<std::uint32_t> random_streams;
     double version = 3.7;
+    bool version_said = false;
     std::string debug_output;
 
     Expander(Sources& all_sources, std::vector<Diagnostic>& all_diagnostics, const LoadOptions& load_options)
@@ -186,6 +187,9 @@ struct Nesting {
     Nesting& operator=(const Nesting&) = delete;
 };
 // Counts a failure and throws ParseFailure: for errors that have been recorded before.
+// Counts work that no token shows, as tokens: elements of arrays, letters of strings, files looked for.
+inline std::int64_t letters_work(std::size_t letters) { return static_cast<std::int64_t>(letters / 8); }
+void charge_work(Parser& p, const Token& at, std::int64_t tokens);
 [[noreturn]] void give_up(Parser& p, const Token& at);
 [[noreturn]] void stop(Parser& p, const Token& at, std::string message, std::string help = {});
 

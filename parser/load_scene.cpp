@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <new>
 
 namespace pnr {
 
@@ -61,6 +62,21 @@ void declare_from_outside(Parser& p) {
     }
 }
 
+// At the token that the innermost frame came to.
+void say_memory_ran_out(Expander& in) {
+    Span at;
+    if (!in.frames.empty()) {
+        const TokenFrame& frame = in.frames.back();
+        at = frame.tokens[frame.position > 0 ? frame.position - 1 : 0].span;
+    }
+    ++in.errors;
+    in.diagnostics.push_back({Severity::error,
+                              at,
+                              "memory ran out while the scene was read",
+                              {},
+                              "does a loop make objects or arrays without an end?"});
+}
+
 } // namespace
 
 LoadResult load_scene_text(std::string text, const std::string& name, const LoadOptions& options) {
@@ -80,7 +96,11 @@ LoadResult load_scene_text(std::string text, const std::string& name, const Load
         push_text(p, source, Token{});
         parse_scene(p);
     } catch (const ParseFailure&) {
-    } catch (const ParseStop&) {}
+    } catch (const ParseStop&) {
+    } catch (const std::bad_alloc&) {
+        scene = {}; // make room for the message
+        say_memory_ran_out(in);
+    }
     result.debug_output = std::move(in.debug_output);
     if (in.errors > 0) return result;
     scene.hash = hash_of(result.sources, options);

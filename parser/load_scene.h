@@ -22,7 +22,7 @@ struct Budgets {
     std::int64_t loop_turns = 20'000'000; // of #while and #for together
     std::int64_t macro_calls = 10'000'000;
     std::int64_t tokens = 100'000'000;       // read after expansion
-    std::int64_t bytes = 1'200'000'000;      // of objects, meshes, arrays and strings
+    std::int64_t bytes = 900'000'000;        // of objects, meshes, arrays and strings
     std::int64_t array_elements = 4'000'000; // of one array
     std::int64_t string_length = 1'000'000;
     std::int64_t file_bytes = 1'000'000'000; // of one text

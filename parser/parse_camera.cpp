@@ -58,6 +58,7 @@ void parse_projection(Parser& p, const Token& word, SaidCamera& said) {
 void parse_angle(Parser& p, SaidCamera& said) {
     const Token at = peek(p);
     const double degrees = parse_float(p);
+    accept_comma(p);
     if (at_expression(p)) parse_float(p);        // the vertical angle of spherical cameras
     if (said.replaced && degrees >= 180) return; // of a camera type that sees further around
     if (!(degrees >= 0 && degrees < 180)) fail(p, at, "`angle` must lie between 0 and 180 degrees");

@@ -229,10 +229,17 @@ namespace {
                 "no_image"_kw, "no_reflection"_kw, "hollow"_kw, "inverse"_kw});
 }
 
+std::size_t children_within(const Object& object) {
+    std::size_t count = object.children.size();
+    for (const Object& child : object.children) count += children_within(child);
+    return count;
+}
+
 bool at_declared_object(Parser& p, Object& object) {
     const Token name = peek(p);
     const auto* declared = accept_declared<Object>(p);
     if (!declared) return false;
+    charge(p, name, children_within(*declared) * sizeof(Object)); // before the copy is made
     object = *declared;
     object.name = token_text(p, name, false);
     return true;

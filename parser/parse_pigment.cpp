@@ -166,6 +166,7 @@ bool parse_pattern_modifier(Parser& p, Pigment& pigment) {
     case "offset"_kw:
     case "form"_kw:
     case "solid"_kw:
+    case "interpolate"_kw:
     case "mortar"_kw:
     case "brick_size"_kw:
     case "exponent"_kw:
@@ -275,6 +276,7 @@ ColorMap parse_color_map(Parser& p) {
 ImagePattern parse_image_map(Parser& p) {
     ImagePattern image;
     image.interpolate = false; // POV-Ray's default is the nearest pixel
+    image.as_stored = p.scene.povray && (!p.in.version_said || p.in.version < 3.7); // as POV-Ray 3.7 does
     const Token opener = peek(p);
     block(p, "image_map", [&] {
         const Token word = peek(p);

@@ -6,6 +6,8 @@ namespace pnr {
 
 namespace {
 
+void parse_texture_item(Parser& p, Texture& texture, bool& first, std::string_view what);
+
 // Things of a texture that we lack: surface normals, and textures that are patterns of textures.
 bool skip_texture_word(Parser& p, Texture& texture, bool& first) {
     const Token word = peek(p);
@@ -21,21 +23,14 @@ bool skip_texture_word(Parser& p, Texture& texture, bool& first) {
         if (word.symbol != static_cast<Symbol>("texture_map"_kw)) return skip_block(p, "texture"), true;
         block(p, "texture_map", [&] {
             expect(p, '[', "to start an entry of `texture_map`");
-            parse_float(p), accept_comma(p);
+            if (at_expression(p)) parse_float(p), accept_comma(p); // `average` needs no place
             Texture inner = texture;
+            bool innermost = true;
             while (!at(p, ']') && !at(p, '}')) {
-                if (const auto* declared = accept_declared<Texture>(p))
-                    inner = *declared;
-                else if (accept(p, "texture"_kw))
+                if (accept(p, "texture"_kw))
                     inner = parse_texture(p, inner);
-                else if (accept(p, "pigment"_kw))
-                    inner.pigment = parse_pigment(p, inner.pigment);
-                else if (accept(p, "finish"_kw))
-                    inner.finish = parse_finish(p, inner.finish);
-                else if (accept(p, "normal"_kw))
-                    skip_block(p, "normal");
                 else
-                    unexpected(p, "texture_map", {"texture"_kw, "pigment"_kw, "finish"_kw, "normal"_kw});
+                    parse_texture_item(p, inner, innermost, "texture_map");
             }
             expect(p, ']', "to end an entry of `texture_map`");
             if (first) texture = inner;
@@ -58,24 +53,26 @@ bool skip_texture_word(Parser& p, Texture& texture, bool& first) {
     }
 }
 
+void parse_texture_item(Parser& p, Texture& texture, bool& first, std::string_view what) {
+    if (const auto* declared = accept_declared<Texture>(p))
+        texture = *declared;
+    else if (accept(p, "pigment"_kw))
+        texture.pigment = parse_pigment(p, texture.pigment);
+    else if (accept(p, "finish"_kw))
+        texture.finish = parse_finish(p, texture.finish);
+    else if (Transform transform; accept_transform(p, transform))
+        apply_transform(transform, texture);
+    else if (!skip_texture_word(p, texture, first) && !skip_pattern(p))
+        unexpected(p, what,
+                   {"pigment"_kw, "finish"_kw, "normal"_kw, "translate"_kw, "rotate"_kw, "scale"_kw});
+}
+
 } // namespace
 
 Texture parse_texture(Parser& p, const Texture& start) {
     Texture texture = start;
     bool first = true;
-    block(p, "texture", [&] {
-        if (const auto* declared = accept_declared<Texture>(p))
-            texture = *declared;
-        else if (accept(p, "pigment"_kw))
-            texture.pigment = parse_pigment(p, texture.pigment);
-        else if (accept(p, "finish"_kw))
-            texture.finish = parse_finish(p, texture.finish);
-        else if (Transform transform; accept_transform(p, transform))
-            apply_transform(transform, texture);
-        else if (!skip_texture_word(p, texture, first) && !skip_pattern(p))
-            unexpected(p, "texture",
-                       {"pigment"_kw, "finish"_kw, "normal"_kw, "translate"_kw, "rotate"_kw, "scale"_kw});
-    });
+    block(p, "texture", [&] { parse_texture_item(p, texture, first, "texture"); });
     return texture;
 }
 
