@@ -50,6 +50,24 @@ TEST(Limits, Nesting) {
               "7");
 }
 
+TEST(Limits, WorkThatNoTokenShows) {
+    const std::string texts[] = {
+        "#while (1) #declare A = array[100000]; #end",
+        "#declare A = array[2] { 1, 1 } #while (1) #declare B = array[2] #declare B[0] = A; "
+        "#declare B[1] = A; #declare A = B; #end",
+        "#declare S = \"a\"; #for (I, 1, 18) #declare S = concat(S, S); #end #while (1) #declare T = S; #end",
+    };
+    for (const std::string& text : texts) EXPECT_NE(first_error(text, small()), "") << text;
+    LoadOptions options = small();
+    options.budgets.bytes = 10'000'000; // copies of declared groups count with all their children
+    EXPECT_NE(
+        first_error(
+            "#declare U = sphere { 0, 1 } #while (1) #declare U = union { object { U } object { U } } #end",
+            options)
+            .find("needs more than 10 MB"),
+        std::string::npos);
+}
+
 TEST(Limits, Loops) {
     EXPECT_EQ(first_error("#while (1) #end", small()),
               "test.pnr:1:1: error: the scene's loops turn more than 20000 times");

@@ -120,6 +120,14 @@ TEST(ParseTexture, DeclaredLayersKeepTheLowestUnlessItIsHidden) {
     EXPECT_EQ(scene.objects[1].texture->pigment.map[0].color.rgb, Color(0, 1, 0));
 }
 
+TEST(ParseTexture, EntriesOfTextureMapsTakeWhatTexturesTake) {
+    const Scene scene = scene_of(R"(
+        #declare Red = pigment { rgb <1, 0, 0> }
+        sphere { 0, 1 texture { average texture_map { [pigment { Red } finish { phong 1 } rotate x * 90] [1 pigment { Red }] } } })");
+    EXPECT_EQ(scene.objects[0].texture->pigment.map[0].color.rgb, Color(1, 0, 0));
+    EXPECT_EQ(scene.objects[0].texture->finish.phong, 1);
+}
+
 TEST(ColorsInc, NamesAndMacros) {
     const Scene scene = scene_of(R"(#include "colors.inc"
         sphere { 0, 1 pigment { SteelBlue } }
