@@ -252,7 +252,7 @@ std::shared_ptr<ArrayValue> make_array(Parser& p, const Token& at, std::vector<i
     std::size_t elements = 1;
     for (const int size : dimensions) elements *= static_cast<std::size_t>(size);
     charge(p, at, elements * sizeof(Value));
-    charge_work(p, at, static_cast<std::int64_t>(elements) + 16);
+    charge_work(p, at, static_cast<std::int64_t>(elements) / 2 + 16);
     std::shared_ptr<ArrayValue> array(new ArrayValue, [ledger = p.in.bytes](ArrayValue* gone) {
         *ledger -= static_cast<std::int64_t>(gone->elements.size() * sizeof(Value));
         delete gone;
