@@ -62,6 +62,9 @@ struct Mesh {
     std::shared_ptr<const MeshData> data; // shared by copies; null until a file is read
     std::string file;                     // resolved path; empty if data came from the text
     bool smooth = false;                  // area-weighted vertex normals
+    bool repair = false;                  // this and the next two: see work_on_mesh
+    int subdivide = 0;                    // rounds
+    int simplify = 0;                     // triangles to keep; 0: all
     SourceRef said_at;
 };
 // points[row * 4 + column]; flattened to triangles by u_steps and v_steps, smooth normals. The outside is the side of

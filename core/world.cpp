@@ -5,10 +5,13 @@
 #include "core/image_io.h"
 #include "core/material.h"
 #include "core/mesh_io.h"
+#include "core/mesh_repair.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <tuple>
 
 namespace pnr {
 
@@ -64,11 +67,15 @@ void require(bool fine, const SourceRef& where, const char* text) {
 // ---- meshes and pictures
 // --------------------------------------------------------------------------------------
 
-// Each file is read once, each mesh smoothed once, however many objects show it.
+// Each file is read once, each mesh worked on and smoothed once, however many objects show it.
 struct Assets {
+    using Work = std::tuple<const MeshData*, bool, int, int>;
     std::map<std::string, std::shared_ptr<const MeshData>> meshes;
     std::map<const MeshData*, std::shared_ptr<const MeshData>> smooth;
     std::map<std::pair<std::string, bool>, std::shared_ptr<const Image<glm::vec4>>> images;
+    std::map<Work, std::shared_ptr<const MeshData>> worked_on;
+
+    std::vector<std::string> notes;
 
     std::shared_ptr<const MeshData> mesh(const Mesh& said) {
         std::shared_ptr<const MeshData> data = said.data;
@@ -77,8 +84,13 @@ struct Assets {
             if (!entry) entry = std::make_shared<const MeshData>(read_mesh(said.file, said.said_at));
             data = entry;
         }
-        check(*data, said);
-        return said.smooth && data->normals.empty() ? smoothed(data) : data;
+        if (checked.insert(data.get()).second) {
+            check(*data, said);
+            originals.push_back(data); // its address is a key: it must not be given to another mesh
+        }
+        const bool smooth_already = !data->normals.empty();
+        if (said.repair || said.subdivide > 0 || said.simplify > 0) data = worked(data, said);
+        return (said.smooth || smooth_already) && data->normals.empty() ? smoothed(data) : data;
     }
 
     // In the scene's working values.
@@ -111,6 +123,12 @@ private:
                 said.said_at, "a face names a texture point that does not exist");
     }
 
+    std::shared_ptr<const MeshData> worked(const std::shared_ptr<const MeshData>& data, const Mesh& said) {
+        auto& entry = worked_on[{data.get(), said.repair, said.subdivide, said.simplify}];
+        if (!entry) entry = std::make_shared<const MeshData>(work_on_mesh(*data, said, notes));
+        return entry;
+    }
+
     std::shared_ptr<const MeshData> smoothed(const std::shared_ptr<const MeshData>& data) {
         auto& entry = smooth[data.get()];
         if (!entry) {
@@ -118,10 +136,10 @@ private:
             copy.normals = area_weighted_normals(copy.positions, copy.triangles);
             copy.normal_triangles = copy.triangles;
             entry = std::make_shared<const MeshData>(std::move(copy));
-            originals.push_back(data); // its address is a key: it must not be given to another mesh
         }
         return entry;
     }
+    std::set<const MeshData*> checked;
     std::vector<std::shared_ptr<const MeshData>> originals;
 };
 
@@ -329,6 +347,7 @@ World build_world(const Scene& scene, const Settings& settings) {
         std::any_of(world.objects.begin(), world.objects.end(), [](const WorldObject& o) { return o.npr; });
     world.has_specular = std::any_of(world.materials.begin(), world.materials.end(), is_specular);
     world.illumination = choose_illumination(scene, world, settings.photons);
+    world.notes = std::move(builder.assets.notes);
     world.geometry = make_geometry(std::move(builder.items));
     return std::move(world);
 }

@@ -93,8 +93,8 @@ inline constexpr auto free_words = std::to_array<std::string_view>({
     "hemisphere", "ilic", "image_height", "image_width", "initial_clock", "initial_frame", "input_file_name",
     "interpolation", "kernel", "layer", "length", "light", "linear", "mix", "nearest", "neighbours", "noise",
     "npr", "opacity", "paper_mode", "power", "radiance", "ramp", "random", "rbf", "rectangle", "relief",
-    "saturation", "seeds", "shoulder", "specular_probability", "step", "style", "tau", "tone", "triharmonic",
-    "v_angle", "view", "warm", "weight",
+    "repair", "saturation", "seeds", "shoulder", "simplify", "specular_probability", "step", "style",
+    "subdivide", "tau", "tone", "triharmonic", "v_angle", "view", "warm", "weight",
 });
 // clang-format on
 

@@ -155,6 +155,11 @@ bool parse_texture_modifier(Parser& p, Object& object) {
     }
 }
 
+Mesh* mesh_from_file(Object& object) {
+    Mesh* mesh = object.shape ? std::get_if<Mesh>(&*object.shape) : nullptr;
+    return mesh && !mesh->file.empty() ? mesh : nullptr;
+}
+
 bool parse_flag(Parser& p, Object& object) {
     const Token word = peek(p);
     switch (keyword_of(word)) {
@@ -199,9 +204,20 @@ bool parse_flag(Parser& p, Object& object) {
             return next(p), cone->open = true;
         return false;
     case "smooth"_kw:
-        if (Mesh* mesh = object.shape ? std::get_if<Mesh>(&*object.shape) : nullptr;
-            mesh && !mesh->file.empty())
+        if (Mesh* mesh = mesh_from_file(object))
             return next(p), mesh->smooth = parse_optional_bool(p), true;
+        return false;
+    case "repair"_kw:
+        if (Mesh* mesh = mesh_from_file(object))
+            return next(p), mesh->repair = parse_optional_bool(p), true;
+        return false;
+    case "subdivide"_kw:
+        if (Mesh* mesh = mesh_from_file(object))
+            return next(p), mesh->subdivide = parse_int(p, 0, 8, "`subdivide`"), true;
+        return false;
+    case "simplify"_kw:
+        if (Mesh* mesh = mesh_from_file(object))
+            return next(p), mesh->simplify = parse_int(p, 4, 1 << 26, "`simplify`"), true;
         return false;
     default:
         return false;
