@@ -52,6 +52,7 @@ void check_readable(const std::string& name) {
 // Rays a pixel and shadow rays a light.
 void apply_quality(RenderSettings& render, Quality quality) {
     if (quality == Quality::draft) {
+        render.sharp = false;
         render.samples_min = 1;
         render.samples_max = 4;
         render.shadow_samples = 4;

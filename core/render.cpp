@@ -248,7 +248,7 @@ void choose_gathers(Shading& shading, const PhotonSettings& photons) {
     if (shading.world.illumination != Illumination::photon_mapped) return;
     shading.indirect = both;
     shading.indirect.caustic = false;
-    shading.indirect.sharp = shading.settings.quality != Quality::draft;
+    shading.indirect.sharp = shading.settings.sharp;
 }
 
 RenderResult empty_result(int width, int height, bool want_parts) {

@@ -40,6 +40,7 @@ struct RenderSettings {
     int samples_min = 4;            // rays a pixel at first ...
     int samples_max = 16;           // ... and where neighbours differ by more than `contrast`
     double contrast = 0.04;         // relative difference that asks for more samples
+    bool sharp = true;              // indirect light is gathered anew where the field's records lie too far apart
     int max_trace_level = 10;       // specular chain length; POV-Ray scenes (`.pov`) get 5
     double adc_bailout = 1.0 / 255; // a chain of smaller weight than this is given up
     int shadow_samples = 16; // shadow rays to each area emitter, over a pixel's samples together at least

@@ -38,7 +38,7 @@ std::shared_ptr<const MeshData> ball(int rows, int columns, bool smooth) {
 
 GeometryItem item_of(std::shared_ptr<const MeshData> mesh, const Transform& place) {
     GeometryItem item;
-    item.form = Shape(Mesh{std::move(mesh), "", false, {}});
+    item.form = Shape(Mesh{.data = std::move(mesh), .file = {}, .said_at = {}});
     item.to_world = place;
     return item;
 }
