@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "library_file.h"
+
 #include "core/bvh.h"
 
 #include "bvh_oracle.h"
@@ -261,15 +263,6 @@ int count_leaks(const Triangles& triangles, Vec3f inside, int count) {
 TEST(Bvh, ClosedSphereDoesNotLeak) {
     EXPECT_EQ(count_leaks(sphere(64, 300), {0.1f, 0.2f, -0.15f}, 200000), 0);
     EXPECT_EQ(count_leaks(sphere(4, 1000), {0.01f, 0.02f, -0.03f}, 100000), 0) << "long slivers";
-}
-
-std::filesystem::path library_file(const std::string& name) {
-    const char* folders = std::getenv("PNR_LIBRARY_PATH");
-    std::istringstream list(folders ? folders : "");
-    for (std::string folder; std::getline(list, folder, ':');)
-        if (std::filesystem::exists(std::filesystem::path(folder) / name))
-            return std::filesystem::path(folder) / name;
-    return {};
 }
 
 class LibraryMesh : public testing::TestWithParam<const char*> {};

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "library_file.h"
+
 #include "core/mesh_repair.h"
 
 #include "core/mesh_io.h"
@@ -216,15 +218,6 @@ TEST(MeshRepair, AMeshOfNothingStaysNothing) {
     mesh.positions = {{0, 0, 0}, {1, 1, 1}};
     mesh.triangles = {{0, 0, 1}};
     EXPECT_TRUE(work(mesh, asked(true, 2, 4)).mesh.triangles.empty());
-}
-
-std::filesystem::path library_file(const std::string& name) {
-    const char* folders = std::getenv("PNR_LIBRARY_PATH");
-    std::istringstream list(folders ? folders : "");
-    for (std::string folder; std::getline(list, folder, ':');)
-        if (std::filesystem::exists(std::filesystem::path(folder) / name))
-            return std::filesystem::path(folder) / name;
-    return {};
 }
 
 class RepairedModel : public testing::TestWithParam<const char*> {};
