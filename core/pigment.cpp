@@ -153,16 +153,4 @@ ColorFT eval_pigment(const Pigment& pigment, Vec3 point, Vec2 uv) {
     return std::visit(PatternColor{pigment, point, uv}, pigment.pattern);
 }
 
-Color largest_rgb(const Pigment& pigment) {
-    if (std::holds_alternative<UniformPattern>(pigment.pattern)) return pigment.map.front().color.rgb;
-    Color largest(0);
-    if (const auto* picture = std::get_if<ImagePattern>(&pigment.pattern)) {
-        if (!picture->image) return Color(1);
-        for (const glm::vec4& pixel : picture->image->pixels) largest = glm::max(largest, Color(pixel));
-        return largest;
-    }
-    for (const ColorStop& stop : pigment.map) largest = glm::max(largest, stop.color.rgb);
-    return largest;
-}
-
 } // namespace pnr

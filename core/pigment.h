@@ -53,7 +53,5 @@ struct Pigment {
 
 // The colour at a point (in the space of pigment.transform's result). uv are the surface's own coordinates.
 ColorFT eval_pigment(const Pigment& pigment, Vec3 point, Vec2 uv);
-// Mean and componentwise largest rgb over the pigment, for photon roulette bounds and guesses; exact for uniform ones.
-Color largest_rgb(const Pigment& pigment);
 
 } // namespace pnr

@@ -134,10 +134,3 @@ TEST(Pigment, PicturesInterpolateBetweenPixelCentres) {
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(middle[c], 0.5, 1e-6);
 }
 
-TEST(Pigment, LargestColour) {
-    EXPECT_EQ(largest_rgb(picture(ImageMapType::planar)), white);
-    Pigment gradient = black_to_white(GradientPattern{});
-    gradient.map = {{0, {red, 0, 0}}, {1, {blue, 0, 0}}};
-    EXPECT_EQ(largest_rgb(gradient), Color(1, 0, 1));
-    EXPECT_EQ(largest_rgb(Pigment{}), Color(0));
-}
