@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pnr {
@@ -368,6 +369,13 @@ constexpr double most_cost = 1e7; // instructions of one call
 double evaluate(const Function& function, std::span<const double> arguments) {
     std::vector<double> stack(static_cast<std::size_t>(function.stack) + 1);
     return run(function, arguments.data(), stack.data());
+}
+
+ScalarField field_of(std::shared_ptr<const Function> function) {
+    return [function = std::move(function)](Vec3 p) {
+        const std::array<double, 3> arguments{p.x, p.y, p.z};
+        return evaluate(*function, std::span(arguments).first(static_cast<std::size_t>(function->parameters)));
+    };
 }
 
 std::shared_ptr<const Function> parse_function(Parser& p) {

@@ -3,6 +3,7 @@
 // numbers.
 #pragma once
 
+#include "core/scalar_field.h"
 #include "core/types.h"
 #include "parser/token.h"
 
@@ -62,6 +63,9 @@ struct Function {
 // The value; may be NaN or infinite where the function has none. `arguments` has as many numbers as
 // parameters.
 double evaluate(const Function& function, std::span<const double> arguments);
+
+// A function of at most three parameters as a field: x, y, z are its arguments.
+ScalarField field_of(std::shared_ptr<const Function> function);
 
 // `function [(names)] { expression }`, the word being next. Without names they are x, y, z, and u, v mean x,
 // y. What we cannot evaluate (internal, pigment, pattern, spline, transform functions) is read and marked as
