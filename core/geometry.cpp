@@ -2,6 +2,7 @@
 #include "core/geometry.h"
 
 #include "core/bvh.h"
+#include "core/shape_hits.h"
 
 #include <algorithm>
 #include <chrono>
@@ -62,16 +63,14 @@ Bounds form_bounds(const GeometryItem& item) {
     return shape_bounds(std::get<Shape>(item.form));
 }
 
-int intersect_form(const GeometryItem& item, const Ray& ray, std::array<ShapeHit, 4>& hits) {
+int intersect_form(const GeometryItem& item, const Ray& ray, HitList& hits) {
     if (const auto* h = std::get_if<Hemisphere>(&item.form)) {
-        const int count = intersect_shape(Sphere{h->center, h->radius}, ray, hits);
-        int kept = 0;
-        for (int i = 0; i < count; ++i) {
-            const ShapeHit hit = hits[static_cast<std::size_t>(i)];
-            if (glm::dot(hit.normal, h->axis) >= 0) hits[static_cast<std::size_t>(kept++)] = hit;
-        }
-        return kept;
+        intersect_shape(Sphere{h->center, h->radius}, ray, hits);
+        const auto other_half = [&](const ShapeHit& hit) { return !(glm::dot(hit.normal, h->axis) >= 0); };
+        hits.erase(std::remove_if(hits.begin(), hits.end(), other_half), hits.end());
+        return static_cast<int>(hits.size());
     }
+    hits.clear();
     if (const auto* p = std::get_if<Parallelogram>(&item.form)) {
         const Vec3 n = glm::cross(p->u, p->v);
         const double slope = glm::dot(n, ray.direction);
@@ -83,7 +82,7 @@ int intersect_form(const GeometryItem& item, const Ray& ray, std::array<ShapeHit
         const double n2 = glm::dot(n, n);
         const double a = glm::dot(glm::cross(at, p->v), n) / n2, b = glm::dot(glm::cross(p->u, at), n) / n2;
         if (!(a >= 0 && a <= 1 && b >= 0 && b <= 1)) return 0;
-        hits[0] = {t, n, {a, b}};
+        hits.push_back({t, n, {a, b}, 0});
         return 1;
     }
     return intersect_shape(std::get<Shape>(item.form), ray, hits);
@@ -158,7 +157,7 @@ bool meets_shape(Trace& trace, std::uint32_t index, std::uint32_t primitive, Ker
     const Ray own{transform_point(item.to_world.inverse, trace.ray.origin),
                   transform_vector(item.to_world.inverse, trace.ray.direction), trace.ray.t_min,
                   trace.ray.t_max};
-    std::array<ShapeHit, 4> hits;
+    HitList hits;
     if (intersect_form(item, own, hits) == 0) return false;
     const double t = trace.prepared.to_kernel(hits[0].t);
     if (!better(t, primitive, hit)) return false;
@@ -287,7 +286,9 @@ void finish_shape_hit(const Geometry& g, const Ray& ray, const ShapeHit& shape_h
     const Bounds& b = g.bounds[hit.surface];
     double size = largest(ray.origin) + largest(hit.position);
     if (std::isfinite(b.low.x)) size = std::max({size, largest(b.low), largest(b.high)});
-    hit.error = 0x1p-47 * size;
+    double stretch = 0;
+    for (int k = 0; k < 3; ++k) stretch += largest(Vec3(item.to_world.matrix[k]));
+    hit.error = std::max(0x1p-47 * size, stretch * shape_hit.error);
 }
 
 static const Transform in_place;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/shape.h"
+#include "core/shape_hits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,15 +35,13 @@ Bounds mesh_bounds(const MeshData& mesh) {
 // Collects hits inside the ray's open interval, kept in order of t.
 struct Hits {
     const Ray& ray;
-    std::array<ShapeHit, 4>& hits;
-    int count = 0;
+    HitList& list;
 
     void add(double t, Vec3 normal, Vec2 uv = Vec2(0)) {
-        if (!(t > ray.t_min && t < ray.t_max) || count == 4) return;
-        int at = count++;
-        for (; at > 0 && hits[static_cast<std::size_t>(at) - 1].t > t; --at)
-            hits[static_cast<std::size_t>(at)] = hits[static_cast<std::size_t>(at) - 1];
-        hits[static_cast<std::size_t>(at)] = {t, normal, uv};
+        if (!(t > ray.t_min && t < ray.t_max)) return;
+        auto at = list.end();
+        while (at != list.begin() && (at - 1)->t > t) --at;
+        list.insert(at, ShapeHit{t, normal, uv, 0});
     }
 };
 
@@ -248,6 +246,17 @@ void intersect_cone(const Cone& cone, Hits& out) {
     }
 }
 
+bool inside_cone(const Cone& cone, Vec3 p) {
+    const double height = glm::length(cone.cap - cone.base);
+    if (!(height > 0)) return false;
+    const Vec3 axis = (cone.cap - cone.base) / height, from_base = p - cone.base;
+    const double z = glm::dot(from_base, axis);
+    if (!(z >= 0 && z <= height)) return false;
+    const Vec3 away = from_base - z * axis;
+    const double r = cone.base_radius + (cone.cap_radius - cone.base_radius) * (z / height);
+    return glm::dot(away, away) <= r * r;
+}
+
 // ---- torus
 // ----------------------------------------------------------------------------------------------------
 
@@ -381,7 +390,8 @@ const char* shape_name(const Shape& shape) {
                       shape);
 }
 
-int intersect_shape(const Shape& shape, const Ray& ray, std::array<ShapeHit, 4>& hits) {
+int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits) {
+    hits.clear();
     Hits out{ray, hits};
     std::visit(Overload{
                    [&](const Sphere& s) { intersect_sphere(s, out); },
@@ -397,7 +407,30 @@ int intersect_shape(const Shape& shape, const Ray& ray, std::array<ShapeHit, 4>&
                    [](const BicubicPatch&) {},
                },
                shape);
-    return out.count;
+    return static_cast<int>(hits.size());
+}
+
+bool inside_shape(const Shape& shape, Vec3 p) {
+    return std::visit(
+        Overload{
+            [&](const Sphere& s) {
+                return glm::dot(p - s.center, p - s.center) <= s.radius * s.radius;
+            },
+            [&](const Box& b) {
+                const Vec3 low = glm::min(b.low, b.high), high = glm::max(b.low, b.high);
+                return glm::all(glm::lessThanEqual(low, p)) && glm::all(glm::lessThanEqual(p, high));
+            },
+            [&](const Plane& s) { return glm::dot(s.normal, p) <= s.distance; },
+            [&](const Cylinder& c) { return inside_cone({c.base, c.cap, c.radius, c.radius, c.open}, p); },
+            [&](const Cone& c) { return inside_cone(c, p); },
+            [&](const Torus& t) {
+                return std::hypot(std::hypot(p.x, p.z) - t.major, p.y) <= std::abs(t.minor);
+            },
+            [&](const Disc& d) { return glm::dot(d.normal, p - d.center) <= 0; },
+            [](const Mesh&) { return false; },
+            [](const BicubicPatch&) { return false; },
+        },
+        shape);
 }
 
 } // namespace pnr

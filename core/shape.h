@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The closed set of shapes, each in its own space, as POV-Ray defines them.
 //
-// To add one: create its struct, add it to `Shape`, give its bounds and its intersection in shape.cpp, read it in the
+// To add one: create its struct, add it to `Shape`, give its bounds, its hits and its inside in shape.cpp (shape_hits.h), read it in the
 // parser's table of objects, write its line into grammar/pnr.ebnf.
 #pragma once
 
@@ -65,6 +65,7 @@ struct Mesh {
     bool repair = false;                  // this and the next two: see work_on_mesh
     int subdivide = 0;                    // rounds
     int simplify = 0;                     // triangles to keep; 0: all
+    std::optional<Vec3> inside_vector;    // said: the mesh is a solid; inside is decided along this direction
     SourceRef said_at;
 };
 // points[row * 4 + column]; flattened to triangles by u_steps and v_steps, smooth normals. The outside is the side of
@@ -80,15 +81,5 @@ using Shape = std::variant<Sphere, Box, Plane, Cylinder, Cone, Torus, Disc, Mesh
 // In the shape's own space; infinite for unbounded shapes.
 Bounds shape_bounds(const Shape& shape);
 const char* shape_name(const Shape& shape); // POV-Ray's word
-
-// A hit in the shape's own space. `normal` points to the outside as modelled (for a mesh: by the winding), not unit.
-struct ShapeHit {
-    double t = infinity;
-    Vec3 normal{0};
-    Vec2 uv{0};
-};
-// All hits of an analytic shape with t_min < t < t_max, in increasing t; at most 4. Computed in double, roots polished so
-// that |f(p)| at the hit is at rounding level. Mesh and BicubicPatch are not handled here (they live in the BVH): 0 hits.
-int intersect_shape(const Shape& shape, const Ray& ray, std::array<ShapeHit, 4>& hits);
 
 } // namespace pnr

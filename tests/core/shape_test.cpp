@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/shape.h"
+#include "core/shape_hits.h"
 
 #include "core/rng.h"
 
@@ -75,7 +75,7 @@ TEST_P(AnySolid, HitsAreTheCrossingsOfItsSurface) {
         Vec3 direction = (0.1 + 3 * rng.uniform()) * glm::normalize(random_point(rng, 1.5) - origin);
         if (i % 7 == 0) direction[static_cast<int>(rng.uniform() * 3)] = i % 2 ? 0.0 : -0.0;
         if (i % 11 == 0) direction = i % 2 ? Vec3(0, 1, 0) : Vec3(0, 0, -1);
-        std::array<ShapeHit, 4> hits;
+        HitList hits;
         const int count = intersect_shape(solid.shape, {origin, direction, 0, infinity}, hits);
         met += count > 0;
         for (int k = 0; k < count; ++k) {
@@ -97,6 +97,7 @@ TEST_P(AnySolid, HitsAreTheCrossingsOfItsSurface) {
             int before = 0;
             while (before < count && hits[static_cast<std::size_t>(before)].t < t) ++before;
             EXPECT_EQ((before % 2 != 0) != starts_inside, d < 0) << "ray " << i << " at " << t;
+            EXPECT_EQ(inside_shape(solid.shape, origin + t * direction), d < 0) << "ray " << i << " at " << t;
         }
     }
     EXPECT_GT(met, 200);
@@ -109,7 +110,7 @@ TEST_P(AnySolid, BoundsHoldItAndAreTight) {
     Bounds seen;
     for (int i = 0; i < 100000; ++i) {
         const Vec3 from = random_point(rng, 2.5), to = random_point(rng, 2.5);
-        std::array<ShapeHit, 4> hits;
+        HitList hits;
         const int count = intersect_shape(solid.shape, {from, to - from, -infinity, infinity}, hits);
         for (int k = 0; k < count; ++k)
             seen = merge(seen, from + hits[static_cast<std::size_t>(k)].t * (to - from));
@@ -128,7 +129,7 @@ TEST_P(AnySolid, KeepsItsPrecisionFromAfar) {
     for (int i = 0; i < 2000; ++i) {
         const Vec3 away = 1e6 * glm::normalize(random_point(rng, 1));
         const Vec3 direction = glm::normalize(random_point(rng, 0.5) - away);
-        std::array<ShapeHit, 4> hits;
+        HitList hits;
         const int count = intersect_shape(solid.shape, {away, direction, 0, infinity}, hits);
         for (int k = 0; k < count; ++k)
             EXPECT_LT(std::abs(solid.distance(away + hits[static_cast<std::size_t>(k)].t * direction)), 2e-9);
@@ -142,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(Solids, AnySolid, testing::Range(0, 8), [](const auto& 
 });
 
 TEST(IntersectShape, KnownDistances) {
-    std::array<ShapeHit, 4> h;
+    HitList h;
     ASSERT_EQ(intersect_shape(Sphere{{0, 0, 5}, 2}, {{0, 0, 0}, {0, 0, 2}, 0, infinity}, h), 2);
     EXPECT_DOUBLE_EQ(h[0].t, 1.5); // in units of the direction
     EXPECT_DOUBLE_EQ(h[1].t, 3.5);
@@ -163,7 +164,7 @@ TEST(IntersectShape, KnownDistances) {
 }
 
 TEST(IntersectShape, OpenCylinderHasNoLids) {
-    std::array<ShapeHit, 4> h;
+    HitList h;
     const Ray along{{0.5, 5, 0}, {0, -1, 0}, 0, infinity};
     EXPECT_EQ(intersect_shape(Cylinder{{0, 0, 0}, {0, 1, 0}, 1, true}, along, h), 0);
     EXPECT_EQ(intersect_shape(Cylinder{{0, 0, 0}, {0, 1, 0}, 1, false}, along, h), 2);
@@ -172,6 +173,20 @@ TEST(IntersectShape, OpenCylinderHasNoLids) {
     EXPECT_EQ(
         intersect_shape(Cylinder{{0, 0, 0}, {0, 1, 0}, 1, true}, {{-5, 0.5, 0}, {1, 0, 0}, 0, infinity}, h),
         2);
+}
+
+// What POV-Ray 3.7's inside() prints.
+TEST(InsideShape, IsPovraysForOpenShapesAndDiscs) {
+    const Cylinder pipe{{0, 0, 0}, {0, 1, 0}, 1, true};
+    EXPECT_TRUE(inside_shape(pipe, {0, 0.5, 0}));
+    EXPECT_FALSE(inside_shape(pipe, {0, 1.5, 0}));
+    const Cone funnel{{0, 0, 0}, {0, 1, 0}, 1, 0, true};
+    EXPECT_TRUE(inside_shape(funnel, {0, 0.5, 0}));
+    EXPECT_FALSE(inside_shape(funnel, {0, 1.5, 0})) << "the mirrored half of the double cone";
+    EXPECT_FALSE(inside_shape(funnel, {0, -0.5, 0}));
+    const Disc disc{{0, 0, 0}, {0, 1, 0}, 1, 0.3};
+    EXPECT_TRUE(inside_shape(disc, {5, -0.5, 0})) << "a half space";
+    EXPECT_FALSE(inside_shape(disc, {0, 0.5, 0}));
 }
 
 // Rays aimed exactly at the rims, where the side ends and the lid begins, from outside into the solid.
@@ -186,7 +201,7 @@ TEST(IntersectShape, RimsDoNotLeak) {
             const Vec3 rim = base + r1 * (std::cos(a) * frame.x + std::sin(a) * frame.y);
             const Vec3 inside = 0.5 * (base + cap) + random_point(rng, 0.1);
             const Vec3 from = inside + 4.0 * (rim - inside);
-            std::array<ShapeHit, 4> h;
+            HitList h;
             const Ray ray{from, inside - from, 0, infinity};
             EXPECT_EQ(intersect_shape(Cone{base, cap, r1, r2, false}, ray, h), 2);
         }
@@ -194,7 +209,7 @@ TEST(IntersectShape, RimsDoNotLeak) {
 }
 
 TEST(IntersectShape, ZeroAndMinusZeroDirectionsAreOne) {
-    std::array<ShapeHit, 4> h;
+    HitList h;
     for (const double zero : {0.0, -0.0}) {
         for (const Vec3 origin : {Vec3(0, 0, -3), Vec3(1, 0, -3), Vec3(0, -1, -3)}) { // also along a face
             EXPECT_EQ(

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where a line meets a shape, and which points are inside it: all that CSG and the rays ask of a shape.
+#pragma once
+
+#include "core/shape.h"
+
+#include <boost/container/small_vector.hpp>
+
+namespace pnr {
+
+// A hit in the shape's own space. `normal` points to the outside as modelled (for a mesh: by the winding), not unit.
+struct ShapeHit {
+    double t = infinity;
+    Vec3 normal{0};
+    Vec2 uv{0};
+    double error = 0; // bound on the distance to the surface, where it is more than the rounding of coordinates
+};
+// Most shapes are met four times at most; clear() keeps what was grown for more.
+using HitList = boost::container::small_vector<ShapeHit, 4>;
+
+// Fills `hits` with all hits of an analytic shape with t_min < t < t_max, in increasing t, and returns their number.
+// Computed in double, roots polished so that |f(p)| at the hit is at rounding level. Mesh and BicubicPatch are not
+// handled here (they live in the BVH): 0 hits.
+int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits);
+
+// Whether a point of the shape's own space is inside, as POV-Ray's CSG sees it: a plane's and a disc's inside is the
+// half space against the normal; cylinders and cones end at their lids even where these are open; shapes without an
+// inside (Mesh and BicubicPatch here) have no such point. Points on the surface may be either.
+bool inside_shape(const Shape& shape, Vec3 p);
+
+} // namespace pnr
