@@ -59,11 +59,12 @@ struct BvhView {
 
 // The rest of a ray query, by function so that the kernel needs no type of the scene. `meets` tries the other
 // primitive `index` and, where it finds a closer hit (or one of equal t and smaller number) than `hit`,
-// overwrites it and returns true. `sees` (may be null: all) tells whether the ray meets the triangle at all.
+// overwrites it and returns true. `sees` (may be null: all) tells whether the ray meets the triangle at t; it is asked
+// about those that would be the best hit so far, in any order.
 struct KernelCalls {
     const void* context = nullptr;
     bool (*meets)(const void* context, std::uint32_t index, const KernelRay& ray, KernelHit& hit) = nullptr;
-    bool (*sees)(const void* context, std::uint32_t triangle) = nullptr;
+    bool (*sees)(const void* context, std::uint32_t triangle, double t) = nullptr;
 };
 
 struct BvhKernel {

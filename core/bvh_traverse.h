@@ -136,7 +136,7 @@ bool take(Query& q, const TriangleBlock<B>& block, int lane) {
     const double t = plane_t(q.ray, corner[0], corner[1], corner[2]);
     if (!(t > q.ray.t_min && t < q.ray.t_max)) return false;
     if (!(t < q.hit.t || (t == q.hit.t && number < q.hit.primitive))) return false;
-    if (q.calls.sees && !q.calls.sees(q.calls.context, number)) return false;
+    if (q.calls.sees && !q.calls.sees(q.calls.context, number, t)) return false;
     q.hit.t = t;
     q.hit.primitive = q.hit.triangle = number;
     q.found_t();

@@ -8,6 +8,8 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
 
+#include <cmath>
+
 namespace pnr {
 
 namespace {
@@ -37,6 +39,9 @@ struct ShapeIndex {
 struct SurfaceIndex {
     std::vector<std::unique_ptr<MeshIndex>> meshes;
     std::vector<ShapeIndex> shapes;
+    const Geometry* geometry = nullptr;
+    bool gated = false;                // a tree of solids hides parts of the surfaces
+    std::vector<ClosestPoint> samples; // if so: points that are seen
 };
 
 namespace {
@@ -127,16 +132,91 @@ ClosestPoint closest_on_shape(const ShapeIndex& index, Vec3 point) {
     return best;
 }
 
+// ---- trees of solids
+// ---------------------------------------------------------------------------------------------------
+
+// The surface nearest to `near_to` on the item of a point that is already known, as seen from `point`.
+ClosestPoint on_same_item(const SurfaceIndex& index, const ClosestPoint& known, Vec3 near_to, Vec3 point) {
+    for (const ShapeIndex& shape : index.shapes)
+        if (shape.surface == known.surface) return project_to_shape(shape, near_to, point);
+    for (const auto& mesh : index.meshes)
+        if (mesh->surface == known.surface) {
+            ClosestPoint found = closest_on_mesh(*mesh, near_to);
+            found.distance = glm::distance(found.position, point);
+            return found;
+        }
+    return {};
+}
+
+bool is_seen(const SurfaceIndex& index, const ClosestPoint& at) {
+    return std::isfinite(at.distance) && is_seen(*index.geometry, at.surface, at.position, at.normal);
+}
+
+// From a seen point downhill along its surface, as far as that is seen.
+ClosestPoint descend(const SurfaceIndex& index, ClosestPoint best, Vec3 point) {
+    double step = 1;
+    for (int i = 0; i < 200 && step > 1e-9; ++i) {
+        const Vec3 way = point - best.position;
+        const Vec3 tangent = way - best.normal * glm::dot(way, best.normal);
+        const ClosestPoint next = on_same_item(index, best, best.position + step * tangent, point);
+        const bool takes = next.distance < best.distance && is_seen(index, next);
+        if (takes) best = next;
+        step *= takes ? 1.5 : 0.5;
+    }
+    return best;
+}
+
+// Seen points of the object, where a grid of lines along each axis meets it.
+void take_samples(SurfaceIndex& index, const World& world, int object) {
+    constexpr int lines = 40;
+    const Bounds& box = world.objects[static_cast<std::size_t>(object)].bounds;
+    if (is_empty(box) || !std::isfinite(glm::length(box.high - box.low))) return;
+    const Vec3 size = box.high - box.low;
+    const double reach = glm::length(size);
+    for (int axis = 0; axis < 3; ++axis)
+        for (int i = 0; i < lines * lines; ++i) {
+            Vec3 origin = box.low, direction(0);
+            origin[axis] -= 0.01 * reach;
+            origin[(axis + 1) % 3] += (i / lines + 0.5) / lines * size[(axis + 1) % 3];
+            origin[(axis + 2) % 3] += (i % lines + 0.5) / lines * size[(axis + 2) % 3];
+            direction[axis] = 1;
+            Ray ray{origin, direction, 0, 1.02 * reach};
+            for (int hits = 0; hits < 64; ++hits) {
+                const auto hit = closest_hit(*index.geometry, ray, RayKind::photon);
+                if (!hit) break;
+                ray.t_min = hit->t + 1e-9 * reach;
+                if (world.surfaces[hit->surface].object != object) continue;
+                ClosestPoint sample;
+                sample.position = hit->position;
+                sample.normal = hit->normal;
+                sample.surface = hit->surface;
+                index.samples.push_back(sample);
+            }
+        }
+}
+
+ClosestPoint nearest_sample(const SurfaceIndex& index, Vec3 point) {
+    ClosestPoint best;
+    for (const ClosestPoint& sample : index.samples)
+        if (const double distance = glm::distance(sample.position, point); distance < best.distance)
+            best = sample, best.distance = distance;
+    if (!std::isfinite(best.distance)) return best;
+    const ClosestPoint there = on_same_item(index, best, best.position, point);
+    return descend(index, is_seen(index, there) ? there : best, point);
+}
+
 } // namespace
 
 std::shared_ptr<const SurfaceIndex> index_surface(const World& world, int object) {
     auto index = std::make_shared<SurfaceIndex>();
     if (!world.geometry) return index;
+    index->geometry = world.geometry.get();
     const auto items = geometry_items(*world.geometry);
     for (std::uint32_t i = 0; i < items.size() && i < world.surfaces.size(); ++i) {
         if (world.surfaces[i].object != object || world.surfaces[i].light >= 0) continue;
         const Shape* shape = std::get_if<Shape>(&items[i].form);
-        if (!shape) continue;
+        if (!shape || items[i].hidden_from == hidden_from_all) continue;
+        index->gated |= is_part_of_solid(*world.geometry, i);
         if (const auto* mesh = std::get_if<Mesh>(shape)) {
             if (!mesh->data) continue;
             if (auto made = index_mesh(*mesh->data, items[i], i)) index->meshes.push_back(std::move(made));
@@ -144,18 +224,22 @@ std::shared_ptr<const SurfaceIndex> index_surface(const World& world, int object
             index->shapes.push_back({i, &items[i], keeps_angles(items[i].to_world.matrix)});
         }
     }
+    if (index->gated) take_samples(*index, world, object);
     return index;
 }
 
 ClosestPoint closest_point(const SurfaceIndex& index, Vec3 point) {
-    ClosestPoint best;
+    ClosestPoint best, hidden;
     const auto consider = [&](const ClosestPoint& found) {
-        if (found.distance < best.distance ||
-            (found.distance == best.distance && found.surface < best.surface))
-            best = found;
+        ClosestPoint& place = index.gated && !is_seen(index, found) ? hidden : best;
+        if (found.distance < place.distance ||
+            (found.distance == place.distance && found.surface < place.surface))
+            place = found;
     };
     for (const auto& mesh : index.meshes) consider(closest_on_mesh(*mesh, point));
     for (const ShapeIndex& shape : index.shapes) consider(closest_on_shape(shape, point));
+    // Something hidden is nearer: what is seen of that may be nearer, too.
+    if (hidden.distance < best.distance) consider(nearest_sample(index, point));
     return best;
 }
 

@@ -3,6 +3,7 @@
 // over them.
 #pragma once
 
+#include "core/csg.h"
 #include "core/shape.h"
 #include "core/types.h"
 #include "core/world.h"
@@ -33,14 +34,32 @@ struct GeometryItem {
     Transform to_world;
     bool inverse = false;         // normals point the other way
     std::uint8_t hidden_from = 0; // 1 << RayKind for each kind of ray that passes through
+    // Where an endless surface is looked for, in world space; nothing is looked at beyond.
+    Bounds limits{Vec3(-infinity), Vec3(infinity)};
 };
 inline std::uint8_t ray_bit(RayKind kind) {
     return static_cast<std::uint8_t>(1u << static_cast<unsigned>(kind));
 }
 
+inline constexpr std::uint8_t hidden_from_all = 0xff;
+
 // Builds the BVH. Degenerate triangles and shapes are kept out: nothing hits them. Meshes that stand in the
-// scene more than once, and are large, are built once and met in their own space.
-std::shared_ptr<const Geometry> make_geometry(std::vector<GeometryItem> items);
+// scene more than once, and are large, are built once and met in their own space; so are those in trees of
+// solids.
+std::shared_ptr<const Geometry> make_geometry(std::vector<GeometryItem> items,
+                                              const std::vector<CsgNode>& solids = {});
+
+// Where each item can be seen, in world space: infinite where there is no bound, empty where it is never
+// seen.
+std::vector<Bounds> seen_bounds(std::span<const GeometryItem> items, const std::vector<CsgNode>& solids);
+
+// Whether p is inside the last of the solids that were given to make_geometry. False if there were none.
+bool is_inside_last(const Geometry& geometry, Vec3 p);
+
+bool is_part_of_solid(const Geometry& geometry, std::uint32_t item);
+
+// Whether the item's surface at p, with this normal, is seen, or cut away by its tree of solids.
+bool is_seen(const Geometry& geometry, std::uint32_t item, Vec3 p, Vec3 normal);
 
 struct GeometryStats {
     std::int64_t triangles = 0; // in the BVHs; a shared mesh counts once
@@ -59,6 +78,8 @@ bool is_occluded(const Geometry& geometry, const Ray& ray, RayKind kind);
 
 // Bounds of an item in world space; infinite for unbounded shapes, empty for empty ones.
 Bounds item_bounds(const GeometryItem& item);
+// The same of its inside, as if it were not inverse: of a plane along the axes, the half space.
+Bounds inside_bounds(const GeometryItem& item);
 
 // The patch as triangles with smooth normals, in its own space: 2^u_steps by 2^v_steps cells [POV-Ray 3.7
 // manual 3.4.5.2.2].

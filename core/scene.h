@@ -97,13 +97,25 @@ struct LightSource {
 
 // ---- objects --------------------------------------------------------------------------------------------------
 
-// One object statement: a shape, or a group of children (union). The parser applies transforms to everything already
-// said in the block, so every transform here maps straight to scene space, children's too.
+// How the children of a group make one thing.
+enum class Combination {
+    unite,     // all of them, with what lies inside others too
+    merge,     // all of them, without the surfaces inside others
+    intersect, // what all have in common
+    differ,    // the first without the others
+};
+
+// One object statement: a shape, or a group of children. The parser applies transforms to everything already said in
+// the block, so every transform here maps straight to scene space, children's too.
 struct Object {
     std::string name;                 // of the #declare it was made from; empty if none
     SourceRef said_at;
     std::optional<Shape> shape;       // none: a group
-    std::vector<Object> children;     // of a union, in the order of the text
+    Combination combination = Combination::unite; // of a group
+    std::vector<Object> children;     // of a group, in the order of the text
+    std::vector<Object> clips;        // clipped_by: only what lies inside all of them is there
+    std::vector<Object> bounds;       // bounded_by: believed where the object itself has no end
+    bool cutaway_textures = false;    // children without a texture show what they cut through
     std::vector<LightSource> lights;  // that stand in a union; the parser moves them to Scene::lights
     Transform transform;              // shape's own space -> scene space
     std::optional<Texture> texture;   // children without one use their parent's

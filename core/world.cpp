@@ -6,6 +6,7 @@
 #include "core/material.h"
 #include "core/mesh_io.h"
 #include "core/mesh_repair.h"
+#include "core/probe.h"
 
 #include <algorithm>
 #include <cmath>
@@ -146,13 +147,36 @@ private:
 // ---- flattening
 // -----------------------------------------------------------------------------------------------
 
+Bounds common(const Bounds& a, const Bounds& b) { return {glm::max(a.low, b.low), glm::min(a.high, b.high)}; }
+
+bool is_plain_union(const Object& object) {
+    return !object.shape && object.combination == Combination::unite && !object.inverse;
+}
+
+const char* group_name(Combination combination) {
+    switch (combination) {
+    case Combination::merge:
+        return "merge";
+    case Combination::intersect:
+        return "intersection";
+    case Combination::differ:
+        return "difference";
+    default:
+        return "union";
+    }
+}
+
 // What a child gets from its parents where it says nothing itself.
 struct Inherited {
     const Texture* texture = nullptr;
     const Interior* interior = nullptr;
     const PhotonRoles* photons = nullptr;
     const PaintWord* npr = nullptr;
+    std::vector<std::uint32_t> clips; // nodes of the solids that clip it
+    Bounds limits{Vec3(-infinity), Vec3(infinity)}; // bounded_by
     int object = 0;
+    bool cutaway = false;
+    bool unseen = false; // clips: they have no surface
     bool no_shadow = false, no_image = false, no_reflection = false;
 };
 
@@ -161,10 +185,11 @@ struct Builder {
     World world;
     Assets assets;
     std::vector<GeometryItem> items; // in scene space until the offset is known
+    std::vector<CsgNode> solids{};
 
     int number_object(const Object& object, const PaintWord* word) {
         WorldObject entry;
-        entry.name = !object.name.empty() ? object.name : object.shape ? shape_name(*object.shape) : "union";
+        entry.name = !object.name.empty() ? object.name : object.shape ? shape_name(*object.shape) : group_name(object.combination);
         entry.said_at = object.said_at;
         entry.npr = word && word->on;
         if (word) entry.paint = word->style;
@@ -195,25 +220,101 @@ struct Builder {
         world.surfaces.push_back(surface);
     }
 
-    void add_object(const Object& object, Inherited from, bool top) {
+    // What the object's own words make of what it has from its parents.
+    Inherited inherit(const Object& object, Inherited from, bool top) {
         require(is_finite(object.transform), object.said_at, "a transform is not finite");
         if (object.texture) from.texture = &*object.texture;
         if (object.interior) from.interior = &*object.interior;
         if (object.photons) from.photons = &*object.photons;
         if (object.npr) from.npr = &*object.npr;
-        if (top || object.npr) from.object = number_object(object, from.npr);
+        if (!from.unseen && (top || object.npr)) from.object = number_object(object, from.npr);
         from.no_shadow |= object.no_shadow;
         from.no_image |= object.no_image;
         from.no_reflection |= object.no_reflection;
-        if (object.shape) add_shape(object, from);
-        for (const Object& child : object.children) add_object(child, from, false);
+        from.cutaway |= object.cutaway_textures;
+        for (const Object& bound : object.bounds) from.limits = common(from.limits, object_bounds(bound));
+        return from;
     }
 
-    void add_shape(const Object& object, const Inherited& from) {
+    // A plain union's children stand in the scene by themselves; whatever needs more than its own surface to know where
+    // it is seen becomes a tree of solids. Clips go down to a union's children.
+    void add_object(const Object& object, const Inherited& above, bool top) {
+        Inherited from = inherit(object, above, top);
+        for (const Object& clip : object.clips) from.clips.push_back(add_clip(clip));
+        if (is_plain_union(object)) {
+            for (const Object& child : object.children) add_object(child, from, false);
+            return;
+        }
+        if (object.shape && from.clips.empty()) {
+            add_shape(object, from, object.inverse);
+            return;
+        }
+        std::vector<std::uint32_t> clips;
+        std::swap(clips, from.clips);
+        clipped(add_unclipped(object, from, object.inverse), std::move(clips));
+    }
+
+    std::uint32_t add_node(CsgNode node) {
+        solids.push_back(std::move(node));
+        return static_cast<std::uint32_t>(solids.size()) - 1;
+    }
+
+    std::uint32_t clipped(std::uint32_t solid, std::vector<std::uint32_t> clips) {
+        if (clips.empty()) return solid;
+        CsgNode node;
+        node.kind = CsgKind::clipped;
+        node.children = std::move(clips);
+        node.children.insert(node.children.begin(), solid);
+        return add_node(std::move(node));
+    }
+
+    // A solid that is never seen itself.
+    std::uint32_t add_clip(const Object& object) {
+        Inherited from;
+        from.unseen = true;
+        return add_solid(object, from, false);
+    }
+
+    std::uint32_t add_solid(const Object& object, const Inherited& above, bool inverse) {
+        Inherited from = inherit(object, above, false);
+        std::vector<std::uint32_t> clips;
+        for (const Object& clip : object.clips) clips.push_back(add_clip(clip));
+        return clipped(add_unclipped(object, from, inverse != object.inverse), std::move(clips));
+    }
+
+    // The inverse of a union is the intersection of the inverses, and the other way round, as in POV-Ray.
+    std::uint32_t add_unclipped(const Object& object, const Inherited& from, bool inverse) {
+        CsgNode node;
+        if (object.shape) {
+            node.item = add_shape(object, from, inverse);
+            node.bare = from.cutaway && !from.texture;
+            return add_node(std::move(node));
+        }
+        const bool differs = object.combination == Combination::differ;
+        const bool common = differs || object.combination == Combination::intersect;
+        node.kind = common != inverse ? CsgKind::all
+                    : object.combination == Combination::merge && !inverse ? CsgKind::merged
+                                                                            : CsgKind::any;
+        node.first_alone = differs;
+        node.cutaway = object.cutaway_textures;
+        for (const Object& child : object.children) {
+            if (!child.shape && child.children.empty()) { // lights alone, or what we lack
+                if (!differs || !node.children.empty()) continue;
+                node.kind = inverse ? CsgKind::all : CsgKind::any; // nothing, less whatever follows
+                return add_node(std::move(node));
+            }
+            node.children.push_back(add_solid(child, from, inverse != (differs && !node.children.empty())));
+        }
+        return add_node(std::move(node));
+    }
+
+    std::uint32_t add_shape(const Object& object, const Inherited& from, bool inverse) {
         require(is_finite(*object.shape), object.said_at, "a coordinate is not finite");
         GeometryItem item;
         item.to_world = object.transform;
-        item.inverse = object.inverse;
+        item.inverse = inverse;
+        item.limits = from.limits;
+        if (from.unseen) item.hidden_from = hidden_from_all;
         if (const auto* mesh = std::get_if<Mesh>(&*object.shape)) {
             Mesh loaded = *mesh;
             loaded.data = assets.mesh(*mesh);
@@ -228,11 +329,12 @@ struct Builder {
         }
         Surface surface;
         surface.object = from.object;
-        surface.material = add_material(from);
+        if (!from.unseen) surface.material = add_material(from);
         surface.no_shadow = from.no_shadow;
         surface.no_image = from.no_image;
         surface.no_reflection = from.no_reflection;
         add_item(std::move(item), surface);
+        return static_cast<std::uint32_t>(items.size()) - 1;
     }
 
     // The emitting area of a light, with the light's position as the origin of its own space.
@@ -272,10 +374,8 @@ bool is_bounded(const Bounds& b) { return !is_empty(b) && is_finite(b.low) && is
 // All that has an extent: bounded shapes and the lights; the camera alone where there is nothing else.
 Bounds Builder::bounded() const {
     Bounds all;
-    for (const GeometryItem& item : items) {
-        const Bounds b = item_bounds(item);
+    for (const Bounds& b : seen_bounds(items, solids))
         if (is_bounded(b)) all = merge(all, b);
-    }
     for (const LightSource& light : scene.lights) all = merge(all, light.position);
     return is_empty(all) ? merge(all, scene.camera.location) : all;
 }
@@ -286,7 +386,10 @@ void Builder::move_to_center() {
     const double radius = 0.5 * glm::length(all.high - all.low);
     world.radius = radius > 0 ? radius : 1;
     const Transform move = translation(-world.offset);
-    for (GeometryItem& item : items) item.to_world = then(item.to_world, move);
+    for (GeometryItem& item : items) {
+        item.to_world = then(item.to_world, move);
+        item.limits = {item.limits.low - world.offset, item.limits.high - world.offset};
+    }
     for (Material& material : world.materials)
         material.pigment.transform = then(material.pigment.transform, move);
     for (WorldObject& object : world.objects) {
@@ -338,9 +441,7 @@ World build_world(const Scene& scene, const Settings& settings) {
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         if (scene.lights[i].emitter) builder.add_emitter(scene.lights[i], static_cast<int>(i));
     builder.move_to_center();
-    std::vector<Bounds> boxes;
-    for (const GeometryItem& item : builder.items) boxes.push_back(item_bounds(item));
-    builder.find_object_bounds(boxes);
+    builder.find_object_bounds(seen_bounds(builder.items, builder.solids));
     world.background = scene.background;
     world.ambient_light = scene.ambient_light;
     world.has_paint =
@@ -348,7 +449,7 @@ World build_world(const Scene& scene, const Settings& settings) {
     world.has_specular = std::any_of(world.materials.begin(), world.materials.end(), is_specular);
     world.illumination = choose_illumination(scene, world, settings.photons);
     world.notes = std::move(builder.assets.notes);
-    world.geometry = make_geometry(std::move(builder.items));
+    world.geometry = make_geometry(std::move(builder.items), builder.solids);
     return std::move(world);
 }
 

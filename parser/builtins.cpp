@@ -466,7 +466,7 @@ double other_function(Parser& p, const Token& name) {
 bool is_number_builtin(Keyword word) {
     VectorValue ignored;
     return total_function(word) || is_partial_function(word) || is_binary_function(word) ||
-           is_constant(word) || is_vector_function(word) || is_other_function(word) ||
+           is_constant(word) || is_vector_function(word) || is_other_function(word) || is_object_function(word) ||
            unit_vector(word, ignored);
 }
 
@@ -487,6 +487,8 @@ VectorValue call_number_builtin(Parser& p, const Token& name) {
         value = scalar(binary_function(p, name, a, number_argument(p)));
     } else if (is_vector_function(word)) {
         value = vector_function(p, name);
+    } else if (is_object_function(word)) {
+        value = object_function(p, name);
     } else if (word == "select"_kw) {
         value = select_value(p, name);
     } else {

@@ -16,4 +16,8 @@ VectorValue vector_argument(Parser& p); // at least 3 components
 
 double number_of_strings(Parser& p, const Token& name); // strlen strcmp asc val, behind the `(`
 
+// inside, trace, min_extent, max_extent (builtins_object.cpp), behind the `(`.
+bool is_object_function(Keyword word);
+VectorValue object_function(Parser& p, const Token& name);
+
 } // namespace pnr

@@ -160,6 +160,34 @@ Mesh* mesh_from_file(Object& object) {
     return mesh && !mesh->file.empty() ? mesh : nullptr;
 }
 
+std::size_t children_within(const Object& object) {
+    std::size_t count = 0;
+    for (const auto* parts : {&object.children, &object.clips, &object.bounds})
+        for (const Object& part : *parts) count += 1 + children_within(part);
+    return count;
+}
+
+// `clipped_by { ... }` or `bounded_by { ... }`: objects, then transforms of all of them; or the other's word,
+// for the same objects.
+void parse_limit(Parser& p, std::string_view what, Keyword other_word, std::vector<Object>& limits,
+                 const std::vector<Object>& others) {
+    std::vector<Object> said;
+    block(p, what, [&] {
+        const Token word = peek(p);
+        if (Transform transform; accept_transform(p, transform))
+            for (Object& object : said) apply_transform(transform, object);
+        else if (accept(p, other_word))
+            said.insert(said.end(), others.begin(), others.end());
+        else if (auto object = parse_object(p))
+            said.push_back(std::move(*object));
+        else if (const auto* declared = accept_declared<Object>(p))
+            charge(p, word, (1 + children_within(*declared)) * sizeof(Object)), said.push_back(*declared);
+        else
+            unexpected(p, what, {other_word});
+    });
+    limits.insert(limits.end(), std::make_move_iterator(said.begin()), std::make_move_iterator(said.end()));
+}
+
 bool parse_flag(Parser& p, Object& object) {
     const Token word = peek(p);
     switch (keyword_of(word)) {
@@ -188,14 +216,13 @@ bool parse_flag(Parser& p, Object& object) {
         next(p), parse_optional_bool(p);
         return true;
     case "cutaway_textures"_kw:
-        next(p);
+        next(p), object.cutaway_textures = parse_optional_bool(p);
         return true;
     case "bounded_by"_kw:
-        next(p), skip_block(p, "bounded_by");
-        return true; // we bound by ourselves
+        next(p), parse_limit(p, "bounded_by", "clipped_by"_kw, object.bounds, object.clips);
+        return true;
     case "clipped_by"_kw:
-        warn_unsupported(p, next(p), "clipped_by", "objects are drawn whole");
-        skip_block(p, "clipped_by");
+        next(p), parse_limit(p, "clipped_by", "bounded_by"_kw, object.clips, object.bounds);
         return true;
     case "open"_kw:
         if (Cylinder* cylinder = object.shape ? std::get_if<Cylinder>(&*object.shape) : nullptr)
@@ -204,12 +231,10 @@ bool parse_flag(Parser& p, Object& object) {
             return next(p), cone->open = true;
         return false;
     case "smooth"_kw:
-        if (Mesh* mesh = mesh_from_file(object))
-            return next(p), mesh->smooth = parse_optional_bool(p), true;
+        if (Mesh* mesh = mesh_from_file(object)) return next(p), mesh->smooth = parse_optional_bool(p), true;
         return false;
     case "repair"_kw:
-        if (Mesh* mesh = mesh_from_file(object))
-            return next(p), mesh->repair = parse_optional_bool(p), true;
+        if (Mesh* mesh = mesh_from_file(object)) return next(p), mesh->repair = parse_optional_bool(p), true;
         return false;
     case "subdivide"_kw:
         if (Mesh* mesh = mesh_from_file(object))
@@ -243,12 +268,6 @@ namespace {
                {"texture"_kw, "pigment"_kw, "finish"_kw, "interior"_kw, "material"_kw, "npr"_kw, "photons"_kw,
                 "translate"_kw, "rotate"_kw, "scale"_kw, "matrix"_kw, "transform"_kw, "no_shadow"_kw,
                 "no_image"_kw, "no_reflection"_kw, "hollow"_kw, "inverse"_kw});
-}
-
-std::size_t children_within(const Object& object) {
-    std::size_t count = object.children.size();
-    for (const Object& child : object.children) count += children_within(child);
-    return count;
 }
 
 bool at_declared_object(Parser& p, Object& object) {
@@ -315,13 +334,17 @@ bool parse_group_child(Parser& p, Object& group) {
     return true;
 }
 
-// union, and the kinds of CSG that we lack.
+Combination combination_of(const Token& word) {
+    if (is(word, "merge"_kw)) return Combination::merge;
+    if (is(word, "intersection"_kw)) return Combination::intersect;
+    return is(word, "difference"_kw) ? Combination::differ : Combination::unite;
+}
+
+// union, merge, intersection, difference, light_group.
 Object parse_group(Parser& p, const Token& word) {
     Object group;
     const std::string what = token_text(p, word, false);
-    const bool first_alone = is(word, "difference"_kw) || is(word, "intersection"_kw);
-    if (is(word, "merge"_kw)) warn_unsupported(p, word, what, "its parts are drawn as a union");
-    if (first_alone) warn_unsupported(p, word, what, "its first part is drawn whole");
+    group.combination = combination_of(word);
     if (is(word, "light_group"_kw)) warn_unsupported(p, word, what, "its lights shine on everything");
     block(p, what, [&] {
         if (parse_group_child(p, group) || parse_object_modifier(p, group)) return;
@@ -330,7 +353,6 @@ Object parse_group(Parser& p, const Token& word) {
         else
             unexpected_in_object(p, what);
     });
-    if (first_alone && group.children.size() > 1) group.children.resize(1);
     return group;
 }
 

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace pnr {
 
 namespace {
@@ -29,9 +31,14 @@ bool is_black(const Pigment& pigment) {
            pigment.map.front().color.filter + pigment.map.front().color.transmit == 0;
 }
 
-// Gives #default's texture to the parts that have none and inherit none. True if a part stayed black by that.
+bool has_texture(const Object& object) {
+    return object.texture || std::ranges::any_of(object.children, has_texture);
+}
+
+// Gives #default's texture to the parts that have none and inherit none; those that show what they cut through go
+// without. True if a part stayed black by that.
 bool give_default_texture(const Texture& texture, Object& object) {
-    if (object.texture) return false;
+    if (object.texture || (object.cutaway_textures && has_texture(object))) return false;
     if (object.shape) object.texture = texture;
     bool black = object.shape && is_black(texture.pigment);
     for (Object& child : object.children) black |= give_default_texture(texture, child);

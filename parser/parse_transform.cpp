@@ -98,7 +98,8 @@ void apply_transform(const Transform& by, Object& object) {
     object.transform = then(object.transform, by);
     if (object.texture) apply_transform(by, *object.texture);
     if (object.npr) apply_transform(by, *object.npr);
-    for (Object& child : object.children) apply_transform(by, child);
+    for (auto* parts : {&object.children, &object.clips, &object.bounds})
+        for (Object& part : *parts) apply_transform(by, part);
     for (LightSource& light : object.lights) apply_transform(by, light);
 }
 

@@ -14,6 +14,7 @@
 
 #include <functional>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -22,6 +23,7 @@
 namespace pnr {
 
 struct Expander; // expander.h
+struct Probe;    // core/probe.h
 
 struct Parser {
     Expander& in;
@@ -32,6 +34,8 @@ struct Parser {
     PaintWord
         paint_defaults; // global_settings { npr { ... } } and #default { npr { ... } }, merged at the end
     std::set<std::string, std::less<>> left_out; // features that were warned about
+    // What inside() and trace() have built; the objects are kept, so that no other takes their place.
+    std::map<std::shared_ptr<const DeclaredBlock>, std::shared_ptr<const Probe>> probes{};
 };
 
 // Thrown after an error was recorded, to unwind to the nearest place that can recover (a block's end).

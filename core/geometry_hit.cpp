@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/geometry_impl.h"
+
+#include <cmath>
+
+namespace pnr {
+
+namespace {
+
+template <class T>
+T blend(const std::array<std::uint32_t, 3>& t, const std::vector<T>& values, Vec3 w) {
+    return static_cast<float>(w.x) * values[t[0]] + static_cast<float>(w.y) * values[t[1]] +
+           static_cast<float>(w.z) * values[t[2]];
+}
+
+struct Corners {
+    Vec3 a, b, c;
+};
+
+// The shares of the corners at the point of the triangle closest to p, about.
+Vec3 barycentric(const Corners& t, Vec3 p) {
+    const Vec3 e = t.b - t.a, f = t.c - t.a, n = glm::cross(e, f), q = p - t.a;
+    const double n2 = glm::dot(n, n);
+    double b = glm::dot(glm::cross(q, f), n) / n2, c = glm::dot(glm::cross(e, q), n) / n2;
+    if (!std::isfinite(b) || !std::isfinite(c)) return {1, 0, 0};
+    b = std::clamp(b, 0.0, 1.0);
+    c = std::clamp(c, 0.0, 1 - b);
+    return {1 - b - c, b, c};
+}
+
+// `corners` are in the space that `to_world` takes to the world; p is about the hit, in that space.
+void finish_mesh_hit(const GeometryItem& item, std::uint32_t number, const Corners& corners,
+                     const Transform& to_world, Vec3 p, Hit& hit) {
+    const MeshData& mesh = *mesh_of(item)->data;
+    const Vec3 weights = barycentric(corners, p);
+    const Vec3 e = corners.b - corners.a, f = corners.c - corners.a, n = glm::cross(e, f);
+    const Vec3 own = corners.a + weights.y * e + weights.z * f;
+    hit.position = transform_point(to_world.matrix, own);
+    const bool mirrored = glm::determinant(glm::dmat3(item.to_world.matrix)) < 0;
+    // The corners' own space is either the mesh's, or the world: there a mirror has turned the winding round.
+    const bool in_world = &to_world != &item.to_world;
+    const double side = (in_world && mirrored) != item.inverse ? -1 : 1;
+    hit.normal = side * glm::normalize(transform_normal(to_world, n / largest(n)));
+    hit.shading_normal = hit.normal;
+    if (!mesh.normals.empty()) {
+        const Vec3 blended(blend(mesh.normal_triangles[number], mesh.normals, weights));
+        const Vec3 shading = transform_normal(item.to_world, blended);
+        const double length = glm::length(shading);
+        if (length > 0)
+            hit.shading_normal = (glm::dot(shading, hit.normal) < 0 ? -1.0 : 1.0) * shading / length;
+    }
+    if (!mesh.uvs.empty()) hit.uv = Vec2(blend(mesh.uv_triangles[number], mesh.uvs, weights));
+    // Rounding of the corners' sum and of the plane that rays are cut with, whose normal is the worse the
+    // thinner the triangle is; then of the way to the world.
+    const double size = std::max({largest(corners.a), largest(corners.b), largest(corners.c)});
+    const double sides = std::max(largest(e), largest(f));
+    const double own_error = 0x1p-48 * size + 0x1p-50 * sides * (sides * sides / largest(n));
+    if (in_world) {
+        hit.error = own_error;
+        return;
+    }
+    double stretch = 0, shift = 0;
+    for (int k = 0; k < 3; ++k) stretch += largest(Vec3(to_world.matrix[k]));
+    shift = largest(Vec3(to_world.matrix[3]));
+    hit.error = 2 * stretch * own_error + 0x1p-48 * (stretch * size + shift);
+}
+
+void finish_shape_hit(const Geometry& g, const Ray& ray, const ShapeHit& shape_hit, Hit& hit) {
+    const GeometryItem& item = g.items[hit.surface];
+    hit.position = ray.origin + shape_hit.t * ray.direction;
+    const Vec3 n = transform_normal(item.to_world, shape_hit.normal);
+    hit.normal = hit.shading_normal = (item.inverse ? -1.0 : 1.0) * glm::normalize(n / largest(n));
+    hit.uv = shape_hit.uv;
+    hit.error = shape_hit_error(g, hit.surface, ray, shape_hit);
+}
+
+static const Transform in_place;
+
+Hit finish_hit(const Geometry& g, const Ray& ray, const Prepared& prepared, const Trace& trace,
+               const KernelHit& found) {
+    Hit hit;
+    hit.t = prepared.from_kernel(found.t);
+    hit.primitive = found.primitive;
+    if (found.triangle == no_primitive) {
+        hit.t = trace.shape_hit.t;
+        hit.surface = found.item;
+        finish_shape_hit(g, ray, trace.shape_hit, hit);
+        return hit;
+    }
+    const Vec3 p = ray.origin + hit.t * ray.direction;
+    if (found.primitive < g.stats.placed_triangles) {
+        const std::size_t placed = placed_index(g, found.triangle);
+        float v[9];
+        g.bvh.triangles->corners(found.triangle, v);
+        const Corners corners{Vec3(v[0], v[1], v[2]) / g.scale, Vec3(v[3], v[4], v[5]) / g.scale,
+                              Vec3(v[6], v[7], v[8]) / g.scale};
+        hit.surface = g.placed_items[placed];
+        finish_mesh_hit(g.items[hit.surface], found.triangle - g.placed_first[placed], corners, in_place, p,
+                        hit);
+    } else {
+        hit.surface = found.item;
+        const GeometryItem& item = g.items[found.item];
+        const MeshData& mesh = *mesh_of(item)->data;
+        const auto& t = mesh.triangles[found.triangle];
+        const Corners corners{Vec3(mesh.positions[t[0]]), Vec3(mesh.positions[t[1]]),
+                              Vec3(mesh.positions[t[2]])};
+        finish_mesh_hit(item, found.triangle, corners, item.to_world,
+                        transform_point(item.to_world.inverse, p), hit);
+    }
+    return hit;
+}
+
+} // namespace
+
+std::size_t placed_index(const Geometry& g, std::uint32_t triangle) {
+    return static_cast<std::size_t>(std::upper_bound(g.placed_first.begin(), g.placed_first.end(), triangle) -
+                                    g.placed_first.begin()) -
+           1;
+}
+
+double shape_hit_error(const Geometry& g, std::uint32_t index, const Ray& ray, const ShapeHit& hit) {
+    // Rounding of the way there and of the shape's own coordinates, whose size the bounds tell.
+    const Bounds& b = g.bounds[index];
+    double size = largest(ray.origin) + largest(ray.origin + hit.t * ray.direction);
+    if (std::isfinite(b.low.x)) size = std::max({size, largest(b.low), largest(b.high)});
+    double stretch = 0;
+    for (int k = 0; k < 3; ++k) stretch += largest(Vec3(g.items[index].to_world.matrix[k]));
+    return std::max(0x1p-47 * size, stretch * hit.error);
+}
+
+Hit finish(const Geometry& g, const Ray& ray, const Prepared& prepared, const Trace& trace,
+           const KernelHit& found) {
+    Hit hit = finish_hit(g, ray, prepared, trace, found);
+    if (const std::uint32_t leaf = g.csg.leaf_of_item[hit.surface]; leaf != no_csg)
+        hit.surface = csg_textured_item(g.csg, leaf, hit.position, solids_of(g));
+    return hit;
+}
+
+} // namespace pnr
