@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/shape_hits.h"
+#include "core/shape_field.h"
 
 #include <algorithm>
 #include <cmath>
@@ -371,6 +371,11 @@ Bounds shape_bounds(const Shape& shape) {
                 for (const Vec3& point : p.points) b = merge(b, point);
                 return b;
             },
+            [](const Isosurface& s) { return bounds_of(s); },
+            [](const Blob& s) { return bounds_of(s); },
+            [](const HeightField& s) { return bounds_of(s); },
+            [](const JuliaFractal& s) { return bounds_of(s); },
+            [](const Parametric& s) { return bounds_of(s); },
         },
         shape);
 }
@@ -386,6 +391,11 @@ const char* shape_name(const Shape& shape) {
                           [](const Disc&) { return "disc"; },
                           [](const Mesh&) { return "mesh"; },
                           [](const BicubicPatch&) { return "bicubic_patch"; },
+                          [](const Isosurface&) { return "isosurface"; },
+                          [](const Blob&) { return "blob"; },
+                          [](const HeightField&) { return "height_field"; },
+                          [](const JuliaFractal&) { return "julia_fractal"; },
+                          [](const Parametric&) { return "parametric"; },
                       },
                       shape);
 }
@@ -405,6 +415,11 @@ int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits) {
                    [&](const Disc& d) { intersect_disc(d, out); },
                    [](const Mesh&) {},
                    [](const BicubicPatch&) {},
+                   [&](const Isosurface& s) { intersect(s, ray, hits); },
+                   [&](const Blob& s) { intersect(s, ray, hits); },
+                   [&](const HeightField& s) { intersect(s, ray, hits); },
+                   [&](const JuliaFractal& s) { intersect(s, ray, hits); },
+                   [](const Parametric&) {},
                },
                shape);
     return static_cast<int>(hits.size());
@@ -429,6 +444,11 @@ bool inside_shape(const Shape& shape, Vec3 p) {
             [&](const Disc& d) { return glm::dot(d.normal, p - d.center) <= 0; },
             [](const Mesh&) { return false; },
             [](const BicubicPatch&) { return false; },
+            [&](const Isosurface& s) { return is_inside(s, p); },
+            [&](const Blob& s) { return is_inside(s, p); },
+            [&](const HeightField& s) { return is_inside(s, p); },
+            [&](const JuliaFractal& s) { return is_inside(s, p); },
+            [](const Parametric&) { return false; },
         },
         shape);
 }

@@ -76,7 +76,35 @@ struct BicubicPatch {
     double flatness = 0;
 };
 
-using Shape = std::variant<Sphere, Box, Plane, Cylinder, Cone, Torus, Disc, Mesh, BicubicPatch>;
+// Shapes that are given by fields (shape_field.h). What was said is shared by copies; what build_world makes of it, see
+// prepare_field_shape, is null until then.
+struct IsosurfaceData;
+struct IsosurfaceCells;
+struct Isosurface {
+    std::shared_ptr<const IsosurfaceData> data;
+    std::shared_ptr<const IsosurfaceCells> cells;
+};
+struct BlobData;
+struct Blob {
+    std::shared_ptr<const BlobData> data;
+};
+struct HeightFieldData;
+struct HeightGrid;
+struct HeightField {
+    std::shared_ptr<const HeightFieldData> data;
+    std::shared_ptr<const HeightGrid> grid;
+};
+struct JuliaFractalData;
+struct JuliaFractal {
+    std::shared_ptr<const JuliaFractalData> data;
+};
+struct ParametricData;
+struct Parametric { // becomes a mesh: see tessellate
+    std::shared_ptr<const ParametricData> data;
+};
+
+using Shape = std::variant<Sphere, Box, Plane, Cylinder, Cone, Torus, Disc, Mesh, BicubicPatch, Isosurface, Blob,
+                           HeightField, JuliaFractal, Parametric>;
 
 // In the shape's own space; infinite for unbounded shapes.
 Bounds shape_bounds(const Shape& shape);

@@ -19,13 +19,13 @@ struct ShapeHit {
 using HitList = boost::container::small_vector<ShapeHit, 4>;
 
 // Fills `hits` with all hits of an analytic shape with t_min < t < t_max, in increasing t, and returns their number.
-// Computed in double, roots polished so that |f(p)| at the hit is at rounding level. Mesh and BicubicPatch are not
+// Computed in double, roots polished so that |f(p)| at the hit is at rounding level. Mesh, BicubicPatch and Parametric are not
 // handled here (they live in the BVH): 0 hits.
 int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits);
 
 // Whether a point of the shape's own space is inside, as POV-Ray's CSG sees it: a plane's and a disc's inside is the
 // half space against the normal; cylinders and cones end at their lids even where these are open; shapes without an
-// inside (Mesh and BicubicPatch here) have no such point. Points on the surface may be either.
+// inside (Mesh, BicubicPatch and Parametric here) have no such point. Points on the surface may be either.
 bool inside_shape(const Shape& shape, Vec3 p);
 
 } // namespace pnr

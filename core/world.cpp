@@ -7,6 +7,7 @@
 #include "core/mesh_io.h"
 #include "core/mesh_repair.h"
 #include "core/probe.h"
+#include "core/shape_field.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +58,11 @@ bool is_finite(const Shape& shape) {
             [](const BicubicPatch& p) {
                 return std::all_of(p.points.begin(), p.points.end(), [](Vec3 q) { return is_finite(q); });
             },
+            [](const Isosurface&) { return true; }, // these the parser has checked
+            [](const Blob&) { return true; },
+            [](const HeightField&) { return true; },
+            [](const JuliaFractal&) { return true; },
+            [](const Parametric&) { return true; },
         },
         shape);
 }
@@ -75,6 +81,7 @@ struct Assets {
     std::map<const MeshData*, std::shared_ptr<const MeshData>> smooth;
     std::map<std::pair<std::string, bool>, std::shared_ptr<const Image<glm::vec4>>> images;
     std::map<Work, std::shared_ptr<const MeshData>> worked_on;
+    std::map<const void*, Shape> fields; // by what was said of them
 
     std::vector<std::string> notes;
 
@@ -92,6 +99,21 @@ struct Assets {
         const bool smooth_already = !data->normals.empty();
         if (said.repair || said.subdivide > 0 || said.simplify > 0) data = worked(data, said);
         return (said.smooth || smooth_already) && data->normals.empty() ? smoothed(data) : data;
+    }
+
+    // Isosurfaces and height fields made ready for rays, parametric shapes as meshes, once for all copies.
+    Shape field(const Shape& said, const void* key) {
+        const auto [entry, is_new] = fields.try_emplace(key);
+        if (!is_new) return entry->second;
+        if (const auto* parametric = std::get_if<Parametric>(&said)) {
+            Mesh mesh;
+            mesh.data = std::make_shared<const MeshData>(tessellate(*parametric));
+            mesh.smooth = true;
+            entry->second = std::move(mesh);
+        } else {
+            entry->second = prepare_field_shape(said);
+        }
+        return entry->second;
     }
 
     // In the scene's working values.
@@ -151,6 +173,14 @@ Bounds common(const Bounds& a, const Bounds& b) { return {glm::max(a.low, b.low)
 
 bool is_plain_union(const Object& object) {
     return !object.shape && object.combination == Combination::unite && !object.inverse;
+}
+
+// Tells apart what must be made ready for rays; null for all other shapes.
+const void* field_key(const Shape& shape) {
+    if (const auto* s = std::get_if<Isosurface>(&shape)) return s->data.get();
+    if (const auto* s = std::get_if<HeightField>(&shape)) return s->data.get();
+    if (const auto* s = std::get_if<Parametric>(&shape)) return s->data.get();
+    return nullptr;
 }
 
 const char* group_name(Combination combination) {
@@ -324,6 +354,8 @@ struct Builder {
             flat.data = std::make_shared<const MeshData>(tessellate(*patch));
             flat.smooth = true;
             item.form = Shape(std::move(flat));
+        } else if (const void* key = field_key(*object.shape)) {
+            item.form = assets.field(*object.shape, key);
         } else {
             item.form = *object.shape;
         }
