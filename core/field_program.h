@@ -97,10 +97,9 @@ struct FieldPoints {
 void field_values(const FieldProgram& program, const FieldPoints& points, double (&values)[field_lanes],
                   FieldScratch& scratch);
 
-// Boxes [low, high], passed along a line: `along` is how x, y and z change with its parameter.
+// Boxes [low, high], passed along lines: `along` is how x, y and z change with a line's parameter.
 struct FieldBoxes {
-    FieldPoints low, high;
-    Vec3 along{0};
+    FieldPoints low, high, along;
 };
 // All values are in [low, high] and, where the function is continuous, their slopes along the line in
 // [slope_low, slope_high]. Ends are finite: beyond `field_huge` they mean "any". Where the function has no

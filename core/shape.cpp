@@ -400,7 +400,7 @@ const char* shape_name(const Shape& shape) {
                       shape);
 }
 
-int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits) {
+int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits, int enough) {
     hits.clear();
     Hits out{ray, hits};
     std::visit(Overload{
@@ -415,10 +415,10 @@ int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits) {
                    [&](const Disc& d) { intersect_disc(d, out); },
                    [](const Mesh&) {},
                    [](const BicubicPatch&) {},
-                   [&](const Isosurface& s) { intersect(s, ray, hits); },
-                   [&](const Blob& s) { intersect(s, ray, hits); },
-                   [&](const HeightField& s) { intersect(s, ray, hits); },
-                   [&](const JuliaFractal& s) { intersect(s, ray, hits); },
+                   [&](const Isosurface& s) { intersect(s, ray, hits, enough); },
+                   [&](const Blob& s) { intersect(s, ray, hits, enough); },
+                   [&](const HeightField& s) { intersect(s, ray, hits, enough); },
+                   [&](const JuliaFractal& s) { intersect(s, ray, hits, enough); },
                    [](const Parametric&) {},
                },
                shape);

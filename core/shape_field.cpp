@@ -10,10 +10,10 @@ Bounds bounds_of(const Blob&) { return {}; }
 Bounds bounds_of(const HeightField&) { return {}; }
 Bounds bounds_of(const JuliaFractal&) { return {}; }
 Bounds bounds_of(const Parametric&) { return {}; }
-void intersect(const Isosurface&, const Ray&, HitList&) {}
-void intersect(const Blob&, const Ray&, HitList&) {}
-void intersect(const HeightField&, const Ray&, HitList&) {}
-void intersect(const JuliaFractal&, const Ray&, HitList&) {}
+void intersect(const Isosurface&, const Ray&, HitList&, int) {}
+void intersect(const Blob&, const Ray&, HitList&, int) {}
+void intersect(const HeightField&, const Ray&, HitList&, int) {}
+void intersect(const JuliaFractal&, const Ray&, HitList&, int) {}
 bool is_inside(const Isosurface&, Vec3) { return false; }
 bool is_inside(const Blob&, Vec3) { return false; }
 bool is_inside(const HeightField&, Vec3) { return false; }

@@ -125,10 +125,10 @@ Bounds bounds_of(const JuliaFractal& shape);
 Bounds bounds_of(const Parametric& shape);
 
 // As intersect_shape and inside_shape.
-void intersect(const Isosurface& shape, const Ray& ray, HitList& hits);
-void intersect(const Blob& shape, const Ray& ray, HitList& hits);
-void intersect(const HeightField& shape, const Ray& ray, HitList& hits);
-void intersect(const JuliaFractal& shape, const Ray& ray, HitList& hits);
+void intersect(const Isosurface& shape, const Ray& ray, HitList& hits, int enough);
+void intersect(const Blob& shape, const Ray& ray, HitList& hits, int enough);
+void intersect(const HeightField& shape, const Ray& ray, HitList& hits, int enough);
+void intersect(const JuliaFractal& shape, const Ray& ray, HitList& hits, int enough);
 bool is_inside(const Isosurface& shape, Vec3 p);
 bool is_inside(const Blob& shape, Vec3 p);
 bool is_inside(const HeightField& shape, Vec3 p);
