@@ -85,7 +85,8 @@ CsgLeaf leaf_of(const GeometryItem& item, const Bounds& bounds) {
     CsgLeaf leaf{bounds, everywhere, everywhere, item.inverse};
     const Shape* shape = std::get_if<Shape>(&item.form);
     const Plane* plane = shape ? std::get_if<Plane>(shape) : nullptr;
-    const bool half_space = plane || (shape && std::holds_alternative<Disc>(*shape));
+    const bool half_space = plane || (shape && (std::holds_alternative<Disc>(*shape) ||
+                                                std::holds_alternative<HeightField>(*shape)));
     if (plane)
         plane_leaf(item, *plane, leaf);
     else if (!half_space)

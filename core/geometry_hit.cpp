@@ -69,7 +69,12 @@ void finish_shape_hit(const Geometry& g, const Ray& ray, const ShapeHit& shape_h
     const GeometryItem& item = g.items[hit.surface];
     hit.position = ray.origin + shape_hit.t * ray.direction;
     const Vec3 n = transform_normal(item.to_world, shape_hit.normal);
-    hit.normal = hit.shading_normal = (item.inverse ? -1.0 : 1.0) * glm::normalize(n / largest(n));
+    const double side = item.inverse ? -1 : 1;
+    hit.normal = hit.shading_normal = side * glm::normalize(n / largest(n));
+    if (shape_hit.shading != Vec3(0)) {
+        const Vec3 smooth = transform_normal(item.to_world, shape_hit.shading);
+        hit.shading_normal = side * glm::normalize(smooth / largest(smooth));
+    }
     hit.uv = shape_hit.uv;
     hit.error = shape_hit_error(g, hit.surface, ray, shape_hit);
 }

@@ -300,11 +300,7 @@ std::shared_ptr<const IsosurfaceCells> find_cells(const IsosurfaceData& data) {
 
 } // namespace
 
-Shape prepare_isosurface(const Isosurface& shape) {
-    Isosurface prepared = shape;
-    prepared.cells = find_cells(*shape.data);
-    return prepared;
-}
+Isosurface prepare_isosurface(const Isosurface& shape) { return {shape.data, find_cells(*shape.data)}; }
 
 Bounds bounds_of(const Isosurface& shape) {
     return shape.cells ? shape.cells->bounds : shape_bounds(container_of(*shape.data));

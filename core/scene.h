@@ -49,6 +49,11 @@ struct Texture {
     Finish finish;
 };
 
+// Textures that a shape's triangles or components number, in the shape's own space.
+struct PartTextures {
+    std::vector<Texture> list;
+};
+
 // Object-level `photons { ... }`. PSR and PA of [LW10 Table 1], in sequence: specular with probability
 // specular_probability, else absorbed with absorption_probability, else diffuse. Unset: the finish decides.
 struct PhotonRoles {

@@ -47,8 +47,12 @@ struct Disc {
     double radius = 1, hole = 0;
 };
 
-// Triangles with shared vertices. `triangles` indexes positions; normals and uvs have their own index lists (empty: flat,
-// no uv), each as long as `triangles` when present.
+struct PartTextures; // scene.h: textures of a shape's own parts
+inline constexpr std::uint32_t no_texture = 0xffffffffu; // a part shows the object's
+
+// Triangles with shared vertices. `triangles` indexes positions; normals, uvs and textures (numbers of PartTextures, one
+// for each corner) have their own index lists (empty: flat, no uv, the object's texture), each as long as `triangles` when
+// present.
 struct MeshData {
     std::vector<Vec3f> positions;
     std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -56,6 +60,8 @@ struct MeshData {
     std::vector<std::array<std::uint32_t, 3>> normal_triangles;
     std::vector<Vec2f> uvs;
     std::vector<std::array<std::uint32_t, 3>> uv_triangles;
+    std::vector<std::array<std::uint32_t, 3>> texture_triangles;
+    std::shared_ptr<const PartTextures> textures;
 };
 // triangle, mesh, mesh2, and `mesh { file }`: the file is named here and read by build_world.
 struct Mesh {
@@ -87,6 +93,7 @@ struct Isosurface {
 struct BlobData;
 struct Blob {
     std::shared_ptr<const BlobData> data;
+    std::shared_ptr<const PartTextures> textures; // of components; null: none has its own
 };
 struct HeightFieldData;
 struct HeightGrid;

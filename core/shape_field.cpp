@@ -3,20 +3,10 @@
 
 namespace pnr {
 
-Shape prepare_field_shape(const Shape& shape) { return shape; }
-MeshData tessellate(const Parametric&) { return {}; }
-Bounds bounds_of(const Isosurface&) { return {}; }
-Bounds bounds_of(const Blob&) { return {}; }
-Bounds bounds_of(const HeightField&) { return {}; }
-Bounds bounds_of(const JuliaFractal&) { return {}; }
-Bounds bounds_of(const Parametric&) { return {}; }
-void intersect(const Isosurface&, const Ray&, HitList&, int) {}
-void intersect(const Blob&, const Ray&, HitList&, int) {}
-void intersect(const HeightField&, const Ray&, HitList&, int) {}
-void intersect(const JuliaFractal&, const Ray&, HitList&, int) {}
-bool is_inside(const Isosurface&, Vec3) { return false; }
-bool is_inside(const Blob&, Vec3) { return false; }
-bool is_inside(const HeightField&, Vec3) { return false; }
-bool is_inside(const JuliaFractal&, Vec3) { return false; }
+Shape prepare_field_shape(const Shape& shape) {
+    if (const auto* s = std::get_if<Isosurface>(&shape)) return prepare_isosurface(*s);
+    if (const auto* s = std::get_if<HeightField>(&shape)) return prepare_height_field(*s);
+    return shape;
+}
 
 } // namespace pnr

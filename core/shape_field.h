@@ -36,13 +36,13 @@ struct BlobComponent {
     Transform transform;  // the component's own space -> the blob's
     Vec3 base{0}, cap{0}; // of the axis; a sphere's centre is its base
     double radius = 1, strength = 1;
-    std::uint32_t texture = no_texture; // into Object::part_textures
-    static constexpr std::uint32_t no_texture = 0xffffffffu;
+    std::uint32_t texture = no_texture; // into the blob's PartTextures
 };
 struct BlobData {
+    static constexpr std::uint32_t no_component = 0xffffffffu;
     struct Node { // boxes over the components, depth first: `skip` is the next one outside this box
         Bounds box;
-        std::uint32_t component = BlobComponent::no_texture;
+        std::uint32_t component = no_component;
         std::uint32_t skip = 0;
     };
     std::vector<BlobComponent> components;
@@ -56,7 +56,7 @@ double blob_density(const BlobData& blob, Vec3 p);
 // Heights over the unit square, as a sheet of triangles between the points of a grid.
 struct HeightFieldData {
     std::string file;     // resolved; empty: the function
-    bool gray_16 = false; // only 16-bit values that POV-Ray packs in red and green: a TGA, a PNG of 16 bits
+    bool pot = false;     // a GIF whose right half holds the low bytes
     ScalarField function; // of x, y in [0, 1]
     int width = 0, height = 0;
     bool smooth = false;
@@ -116,6 +116,8 @@ struct ParametricData {
 // What build_world must make before rays can meet the shape: cells of an isosurface, heights. Others come
 // back as they are. Throws FileError and SceneError as build_world does.
 Shape prepare_field_shape(const Shape& shape);
+Isosurface prepare_isosurface(const Isosurface& shape);
+HeightField prepare_height_field(const HeightField& shape);
 MeshData tessellate(const Parametric& shape);
 
 Bounds bounds_of(const Isosurface& shape);

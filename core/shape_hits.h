@@ -14,8 +14,8 @@ struct ShapeHit {
     double t = infinity;
     Vec3 normal{0};
     Vec2 uv{0};
-    double error =
-        0; // bound on the distance to the surface, where it is more than the rounding of coordinates
+    double error = 0; // bound on the distance to the surface, where it is more than coordinates' rounding
+    Vec3 shading{0};  // of what is lit as if smooth: its normal there, on the side of `normal`; else 0
 };
 // Most shapes are met four times at most; clear() keeps what was grown for more.
 using HitList = boost::container::small_vector<ShapeHit, 4>;

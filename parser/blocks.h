@@ -28,7 +28,8 @@ void parse_default_block(Parser& p);
 std::optional<Object> parse_object(Parser& p);
 // One item that any object takes behind its own: texture, transforms, npr, flags. False if none stands here.
 bool parse_object_modifier(Parser& p, Object& object);
-// A shape's own items, up to the first modifier or `}`; parse_shapes.cpp and parse_mesh.cpp.
+// A shape's own items, up to the first modifier or `}`; parse_shapes.cpp, parse_mesh.cpp,
+// parse_field_shapes.cpp.
 Shape parse_sphere(Parser& p);
 Shape parse_box(Parser& p);
 Shape parse_plane(Parser& p);
@@ -41,6 +42,11 @@ Shape parse_smooth_triangle(Parser& p);
 Shape parse_mesh(Parser& p);
 Shape parse_mesh2(Parser& p);
 Shape parse_bicubic_patch(Parser& p);
+Shape parse_isosurface(Parser& p); // these in parse_field_shapes.cpp
+Shape parse_blob(Parser& p);
+Shape parse_height_field(Parser& p);
+Shape parse_julia_fractal(Parser& p);
+Shape parse_parametric(Parser& p);
 
 // ---- textures
 // -------------------------------------------------------------------------------------------------

@@ -44,7 +44,7 @@ struct Instruction {
         arc,    // of the two on top
         select, // of the four on top
         select_of_three,
-        unary,    // apply `function`
+        unary,    // apply `function`, whose keyword is `index`
         call,     // of calls[index]: its arguments are on top; a vector's component number `component`
         internal, // of internal_functions()[index]: its arguments are on top
         quotient, // div(a, b)
@@ -80,6 +80,7 @@ ScalarField field_of(std::shared_ptr<const Function> function);
 // `function [(names)] { expression }`, the word being next. Without names they are x, y, z, and u, v mean x,
 // y. What we cannot evaluate is read and marked as unsupported.
 std::shared_ptr<const Function> parse_function(Parser& p);
+std::shared_ptr<const Function> parse_function_block(Parser& p, const Token& word); // behind the word
 
 // function_native.cpp. Is the function's body no expression but `internal(N)`, `transform { ... }`, `spline { ... }`,
 // `pigment { ... }` or `pattern { ... }`? If so it is read into `function`.

@@ -106,7 +106,7 @@ void compile_builtin(Compiler& c, const Token& name) {
         compile(c, 1);
         const Unary unary = unary_function(word);
         if (unary) {
-            emit(c, Instruction{.kind = Kind::unary, .function = unary}, 0);
+            emit(c, Instruction{.kind = Kind::unary, .index = static_cast<std::uint32_t>(word), .function = unary}, 0);
         } else {
             const Kind kind = binary_function(word);
             const bool many = kind == Kind::minimum || kind == Kind::maximum;
@@ -314,6 +314,10 @@ constexpr double most_cost = 1e7; // instructions of one call
 
 std::shared_ptr<const Function> parse_function(Parser& p) {
     const Token word = next(p);
+    return parse_function_block(p, word);
+}
+
+std::shared_ptr<const Function> parse_function_block(Parser& p, const Token& word) {
     auto function = std::make_shared<Function>();
     Compiler compiler{p, *function, {}, 0};
     function->parameters = parameter_names(p, compiler.names);

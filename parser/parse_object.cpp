@@ -38,6 +38,16 @@ ShapeParser find_shape_parser(const Token& word) {
         return parse_mesh2;
     case "bicubic_patch"_kw:
         return parse_bicubic_patch;
+    case "isosurface"_kw:
+        return parse_isosurface;
+    case "blob"_kw:
+        return parse_blob;
+    case "height_field"_kw:
+        return parse_height_field;
+    case "julia_fractal"_kw:
+        return parse_julia_fractal;
+    case "parametric"_kw:
+        return parse_parametric;
     default:
         return nullptr;
     }
@@ -59,14 +69,9 @@ bool is_group(const Token& word) {
 // Objects of POV-Ray's that we know and lack.
 bool is_unsupported_object(const Token& word) {
     switch (keyword_of(word)) {
-    case "blob"_kw:
     case "cubic"_kw:
-    case "height_field"_kw:
-    case "isosurface"_kw:
-    case "julia_fractal"_kw:
     case "lathe"_kw:
     case "ovus"_kw:
-    case "parametric"_kw:
     case "poly"_kw:
     case "polygon"_kw:
     case "polynomial"_kw:
