@@ -66,9 +66,11 @@ double algebraic_dupin_cyclid(const double* a) {
     const double major2 = sqr(a[4]), minor2 = sqr(a[5]), along = a[6], up = a[7], inversion2 = sqr(a[8]);
     const double far2 = x * x + y * y + z * z;
     const double px = x * inversion2 - along * far2, pz = z * inversion2;
-    const double ring = sqr(inversion2) - 2 * inversion2 * (along * x + up * y) +
-                        (sqr(along) + sqr(up) + major2 - minor2) * far2;
-    return limited(-a[3] * (sqr(ring) - 4 * major2 * (px * px + pz * pz)));
+    // |p|^2 / |q|^2; where it meets the radii POV-Ray counts `up` the other way round
+    const double even = sqr(inversion2) - 2 * inversion2 * along * x + (sqr(along) + sqr(up)) * far2;
+    const double odd = 2 * inversion2 * up * y, radii = (major2 - minor2) * far2;
+    return limited(-a[3] * (sqr(even - odd) + 2 * radii * (even + odd) + sqr(radii) -
+                            4 * major2 * (px * px + pz * pz)));
 }
 
 // POV-Ray's own variant of Enneper's surface: near z = 0 it stays as it is at 0.2.

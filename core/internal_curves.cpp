@@ -30,7 +30,7 @@ PlanePoint plane_point(const double* a, const double* turn) {
 }
 
 // The limit is the function's own; POV-Ray takes it as it is, negative ones too.
-double within(double value, double limit) { return std::max(std::min(value, limit), -limit); }
+double within(double value, double limit) { return std::min(std::max(value, -limit), limit); }
 
 // The distance from the middle of a cross section: 0 square, 1 round, 2 diamond, between and beyond them superellipses.
 double cross_section(PlanePoint p, double type, double angle) {
@@ -45,7 +45,7 @@ double cross_section(PlanePoint p, double type, double angle) {
 
 double curve_algbr_cyl1(const double* a) {
     const auto [x, y] = plane_point(a, a + 5);
-    return within(a[3] * (cube(x) - sqr(x) + sqr(y)), a[4]);
+    return std::max(std::min(a[3] * (sqr(x) * (std::abs(x) - 1) + sqr(y)), a[4]), -a[4]);
 }
 
 double curve_algbr_cyl2(const double* a) {
@@ -109,22 +109,23 @@ double curve_helix1(const double* a) {
     double angle = std::fmod((std::atan2(a[2], x) + a[1] * period) * count, turn);
     if (angle < 0) angle += turn;
     const double along = (angle - std::numbers::pi) / period / (a[7] * count);
-    return cross_section({r - a[6], along}, a[8], a[9]) - a[5];
+    return std::min(cross_section({r - a[6], along}, a[8], a[9]), r + a[6]) - a[5];
 }
 
+// One tube that is a plane figure moved round; its cross section turns with it, and a[9] does nothing.
 double curve_helix2(const double* a) {
     const double angle = a[1] * a[4];
     const PlanePoint p{a[0] - a[6] * std::cos(angle), a[2] - a[6] * std::sin(angle)};
-    return cross_section(p, a[8], a[9]) - a[5];
+    return cross_section(p, a[8], -angle / degree) - a[5];
 }
 
+// A tube that winds out in the plane y = 0, a[3] from turn to turn, to the sphere of radius a[5].
 double curve_spiral(const double* a) {
-    const double r = std::hypot(a[0], a[2]);
-    double angle = a[0] == 0 && a[2] == 0 ? 0 : std::atan2(a[2], a[0]);
-    const double step = a[3];
-    double between = std::fmod(r - angle * step / (2 * std::numbers::pi) * -1, step);
-    if (between < 0) between += step;
-    return std::max(cross_section({between - step / 2, a[1]}, a[8], 0) - a[4], std::hypot(r, a[1]) - a[5] * 0.5);
+    const double x = a[0] == 0 && a[2] == 0 ? 1e-6 : a[0];
+    const double r = std::hypot(x, a[2]), step = a[3];
+    const double turns = 0.5 - std::atan2(a[2], x) / (2 * std::numbers::pi);
+    const double off = std::min(std::abs(std::remainder(r - turns * step, step)), r);
+    return std::max(cross_section({off, a[1]}, a[8], 0) - a[4], std::sqrt(r * r + a[1] * a[1]) - a[5]);
 }
 
 } // namespace pnr

@@ -3,6 +3,7 @@
 #include "core/internal_functions_impl.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 namespace pnr {
@@ -13,7 +14,17 @@ constexpr double turn = 2 * std::numbers::pi;
 
 double radius2(const double* a) { return sqr(a[0]) + sqr(a[1]) + sqr(a[2]); }
 
-double polynomial(const double* c, double y) { return c[0] + y * (c[1] + y * (c[2] + y * (c[3] + y * c[4]))); }
+// POV-Ray lets it end at -5.
+double polynomial(const double* c, double y) {
+    return std::max(c[0] + y * (c[1] + y * (c[2] + y * (c[3] + y * c[4]))), -5.0);
+}
+
+// Of the three ellipsoids about the axes.
+std::array<double, 3> ellipsoid_densities(const double* a) {
+    const double x2 = sqr(a[0]), y2 = sqr(a[1]), z2 = sqr(a[2]), e = a[3];
+    return {std::exp(-a[4] * (x2 + e * (y2 + z2))), std::exp(-a[4] * (y2 + e * (x2 + z2))),
+            std::exp(-a[4] * (z2 + e * (x2 + y2)))};
+}
 
 } // namespace
 
@@ -37,15 +48,13 @@ double shape_ellipsoid(const double* a) {
 }
 
 double shape_cross_ellipsoids(const double* a) {
-    const double x2 = sqr(a[0]), y2 = sqr(a[1]), z2 = sqr(a[2]), e2 = sqr(a[3]);
-    const double nearest = std::min({x2 * e2 + y2 + z2, x2 + y2 * e2 + z2, x2 + y2 + z2 * e2});
-    return a[6] - a[5] * std::exp(-nearest * a[4]);
+    const auto densities = ellipsoid_densities(a);
+    return a[6] - a[5] * *std::max_element(densities.begin(), densities.end());
 }
 
 double shape_isect_ellipsoids(const double* a) {
-    const double x2 = sqr(a[0]), y2 = sqr(a[1]), z2 = sqr(a[2]), e2 = sqr(a[3]);
-    const double farthest = std::max({x2 * e2 + y2 + z2, x2 + y2 * e2 + z2, x2 + y2 + z2 * e2});
-    return a[6] - a[5] * std::exp(-farthest * a[4]);
+    const auto densities = ellipsoid_densities(a);
+    return a[6] - a[5] * *std::min_element(densities.begin(), densities.end());
 }
 
 double shape_ph(const double* a) {
@@ -59,14 +68,12 @@ double shape_r(const double* a) { return std::sqrt(radius2(a)); }
 
 double shape_poly4(const double* a) { return std::hypot(a[0], a[2]) - polynomial(a + 3, a[1]); }
 
-// Tubes about y, one in each of so many equal sectors.
+// Lines along y in the middle of so many equal sectors, as far from the axis as the polynomial says.
 double shape_polytubes(const double* a) {
-    const double r = std::hypot(a[0], a[2]), sector = turn / a[3];
-    double angle = std::atan2(a[0] == 0 && a[2] == 0 ? 1e-6 : a[0], a[2]);
-    angle = std::fmod(angle, sector);
-    if (angle < 0) angle += sector;
-    angle -= sector / 2;
-    return std::hypot(r * std::cos(angle) - 1, r * std::sin(angle)) - polynomial(a + 4, a[1]);
+    if (a[3] == 0) return 10000;
+    const double r = std::hypot(a[0], a[2]);
+    const double angle = r == 0 ? 0 : std::remainder(std::atan2(a[0], a[2]), turn / a[3]);
+    return std::hypot(r * std::cos(angle) - polynomial(a + 4, a[1]), r * std::sin(angle));
 }
 
 double shape_rounded_box(const double* a) {
