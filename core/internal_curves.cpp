@@ -124,8 +124,9 @@ double curve_spiral(const double* a) {
     const double x = a[0] == 0 && a[2] == 0 ? 1e-6 : a[0];
     const double r = std::hypot(x, a[2]), step = a[3];
     const double turns = 0.5 - std::atan2(a[2], x) / (2 * std::numbers::pi);
-    const double off = std::min(std::abs(std::remainder(r - turns * step, step)), r);
-    return std::max(cross_section({off, a[1]}, a[8], 0) - a[4], std::sqrt(r * r + a[1] * a[1]) - a[5]);
+    const double off = std::abs(std::remainder(r - turns * step, step));
+    const double far = std::sqrt(r * r + a[1] * a[1]);
+    return std::max(std::min(cross_section({off, a[1]}, a[8], 0), far) - a[4], far - a[5]);
 }
 
 } // namespace pnr
