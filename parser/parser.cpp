@@ -242,6 +242,8 @@ const char* type_name(const Value& value) {
         return "function";
     case 8:
         return "open file";
+    case 9:
+        return "spline";
     default:
         break;
     }
