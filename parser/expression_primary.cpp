@@ -279,11 +279,10 @@ VectorValue color_components(Parser& p, Keyword word) {
     promote(value, 5);
     VectorValue color = value;
     color.is_color = true;
-    if (!has_filter && has_transmit && !value.is_color) { // the fourth number is transmit
+    if (!has_filter && has_transmit) { // the fourth number is transmit, even a colour's filter
         color.v[3] = 0;
         color.v[4] = value.v[3];
     }
-    if (!has_filter && !has_transmit && !value.is_color) color.v[3] = color.v[4] = 0;
     if (is_srgb)
         for (int i = 0; i < 3; ++i)
             color.v[i] = to_working(srgb_to_linear(color.v[i]), p.scene.assumed_gamma);
