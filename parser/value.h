@@ -57,7 +57,7 @@ struct Spline;   // spline.h
 
 // Blocks that can be declared; copied on use, heavy data (meshes) is shared inside.
 using DeclaredBlock = std::variant<Object, Texture, Pigment, Finish, Interior, LightSource, Camera, Transform,
-                                   PaintWord, ColorMap, SaidMaterial, SkippedBlock>;
+                                   PaintWord, ColorMap, BlendMap<Pigment>, SaidMaterial, SkippedBlock>;
 
 struct Value {
     std::variant<std::monostate, double, VectorValue, std::string, std::shared_ptr<ArrayValue>,
