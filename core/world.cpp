@@ -236,7 +236,7 @@ struct Builder {
         }
         if (from.interior) material.interior = *from.interior;
         if (from.photons) material.photons = *from.photons;
-        if (auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern))
+        if (auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern.kind))
             picture->image = assets.image(*picture, scene.assumed_gamma);
         world.materials.push_back(std::move(material));
         return static_cast<int>(world.materials.size()) - 1;
@@ -423,7 +423,7 @@ void Builder::move_to_center() {
         item.limits = {item.limits.low - world.offset, item.limits.high - world.offset};
     }
     for (Material& material : world.materials)
-        material.pigment.transform = then(material.pigment.transform, move);
+        transform_pigment(material.pigment, move);
     for (WorldObject& object : world.objects) {
         object.paint.field_point -= world.offset;
         for (Seed& seed : object.paint.seeds) seed.position -= world.offset;

@@ -98,7 +98,18 @@ void declare_directive(Parser& p, const Token& directive, bool local) {
 }
 
 void undef_directive(Parser& p, const Token& directive) {
-    undefine(p.in, take_name(p, directive).symbol);
+    const Token name = peek_raw(p);
+    const Value* value = name.kind == TokenKind::word ? lookup(p.in, name.symbol) : nullptr;
+    if (value && std::holds_alternative<std::shared_ptr<ArrayValue>>(value->data)) {
+        const HoldScope hold(p);
+        const Target target = take_target(p, directive);
+        if (target.array)
+            target.array->elements[target.element] = {};
+        else
+            undefine(p.in, name.symbol);
+    } else {
+        undefine(p.in, take_name(p, directive).symbol);
+    }
     accept_semicolon(p);
 }
 

@@ -20,6 +20,8 @@ bool ends_expression(Keyword name) {
     case "default"_kw:
     case "version"_kw:
     case "debug"_kw:
+    case "render"_kw:
+    case "statistics"_kw:
     case "warning"_kw:
     case "error"_kw:
     case "fopen"_kw:

@@ -5,6 +5,7 @@
 #include "parser/color_space.h"
 #include "parser/expression.h"
 #include "parser/function.h"
+#include "parser/spline.h"
 
 #include <fmt/format.h>
 
@@ -65,9 +66,11 @@ const Value* sample(const ArrayValue& array) {
     return nullptr;
 }
 
-// A function's name with `(` behind it, the name being in the buffer.
+// The name of a function or spline with `(` behind it, the name being in the buffer.
 bool is_call(Parser& p, const Value& value) {
-    if (!std::holds_alternative<std::shared_ptr<const Function>>(value.data)) return false;
+    if (!std::holds_alternative<std::shared_ptr<const Function>>(value.data) &&
+        !std::holds_alternative<std::shared_ptr<const Spline>>(value.data))
+        return false;
     const TokenFrame& frame = p.in.frames.back();
     return frame.position < frame.end && is(frame.tokens[frame.position], '(');
 }
@@ -131,6 +134,8 @@ VectorValue parse_word(Parser& p) {
         const Value& value = take_variable(p);
         if (const auto* function = std::get_if<std::shared_ptr<const Function>>(&value.data))
             return call_function(p, token, std::shared_ptr<const Function>(*function));
+        if (const auto* spline = std::get_if<std::shared_ptr<const Spline>>(&value.data))
+            return call_spline(p, token, std::shared_ptr<const Spline>(*spline));
         return operand_from(p, value, token);
     }
     if (is_keyword(token.symbol)) {
@@ -274,11 +279,10 @@ VectorValue color_components(Parser& p, Keyword word) {
     promote(value, 5);
     VectorValue color = value;
     color.is_color = true;
-    if (!has_filter && has_transmit && !value.is_color) { // the fourth number is transmit
+    if (!has_filter && has_transmit) { // the fourth number is transmit, even a colour's filter
         color.v[3] = 0;
         color.v[4] = value.v[3];
     }
-    if (!has_filter && !has_transmit && !value.is_color) color.v[3] = color.v[4] = 0;
     if (is_srgb)
         for (int i = 0; i < 3; ++i)
             color.v[i] = to_working(srgb_to_linear(color.v[i]), p.scene.assumed_gamma);
@@ -465,6 +469,9 @@ Value parse_value(Parser& p) {
             if (!is_numeric(*value) && !is_call(p, *value)) return take_variable(p);
         } else if (is(token, "function"_kw)) {
             return Value{parse_function(p)};
+        } else if (is(token, "spline"_kw)) {
+            next(p);
+            return Value{parse_spline(p)};
         } else if (is(token, "array"_kw)) {
             return array_value(p);
         } else if (at_string(p)) {

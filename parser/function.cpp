@@ -17,7 +17,6 @@ namespace {
 
 using Kind = Instruction::Kind;
 
-constexpr double equal_within = 1e-10; // as in expressions
 constexpr std::size_t most_results = 5;
 constexpr int most_terms = 1'000'000; // of sum() and prod()
 
@@ -42,17 +41,17 @@ double apply(Kind kind, double a, double b) {
     case Kind::greater:
         return a > b;
     case Kind::equal:
-        return std::abs(a - b) < equal_within;
+        return a == b; // exactly, unlike in expressions
     case Kind::less_equal:
         return a <= b;
     case Kind::greater_equal:
         return a >= b;
     case Kind::unequal:
-        return std::abs(a - b) >= equal_within;
+        return a != b;
     case Kind::both:
-        return is_true(a) && is_true(b);
+        return a != 0 && b != 0;
     case Kind::either:
-        return is_true(a) || is_true(b);
+        return a != 0 || b != 0;
     case Kind::minimum:
         return std::min(a, b);
     case Kind::maximum:
@@ -77,7 +76,7 @@ double run_series(const Function& term, bool is_sum, const double* arguments, do
     std::copy_n(arguments, term.parameters - 1, stack);
     double result = is_sum ? 0 : 1;
     int turns = 0;
-    for (double i = first; i <= last + equal_within; i += 1) {
+    for (double i = first; i <= last + 1e-10; i += 1) {
         if (++turns > most_terms) return std::numeric_limits<double>::quiet_NaN();
         stack[term.parameters - 1] = i;
         const double value = call(term, 0, stack, stack + term.parameters);
@@ -100,7 +99,7 @@ double run(const Function& function, const double* arguments, double* stack) {
             top[-1] = -top[-1];
             break;
         case Kind::invert:
-            top[-1] = !is_true(top[-1]);
+            top[-1] = top[-1] == 0;
             break;
         case Kind::unary:
             top[-1] = step.function(top[-1]);

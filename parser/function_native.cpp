@@ -4,6 +4,7 @@
 #include "parser/blocks.h"
 #include "parser/expression.h"
 #include "parser/function.h"
+#include "parser/spline.h"
 
 #include <fmt/format.h>
 
@@ -62,6 +63,18 @@ void parse_pigment_function(Parser& p, Function& function) {
     };
 }
 
+// `spline { ... }`: the curve at the parameter.
+void parse_spline_function(Parser& p, Function& function) {
+    next(p);
+    const std::shared_ptr<const Spline> spline = parse_spline(p);
+    function.parameters = 1;
+    function.results = spline->components;
+    function.cost = 20;
+    function.native = [spline](const double* a, double* results) {
+        evaluate(*spline, spline->kind, a[0], results);
+    };
+}
+
 // What stands in place of an expression, up to the function's `}`.
 void skip_body(Parser& p, Function& function) {
     function.unsupported = fmt::format("{} functions", token_text(p, next(p), false));
@@ -83,6 +96,8 @@ bool parse_native(Parser& p, Function& function) {
         parse_pigment_function(p, function);
         return true;
     case "spline"_kw:
+        parse_spline_function(p, function);
+        return true;
     case "pattern"_kw:
         skip_body(p, function);
         return true;

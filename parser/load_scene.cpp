@@ -36,18 +36,19 @@ void declare_number(Parser& p, std::string_view name, double value) {
     assign(p, p.in.words.intern(name), Value{value}, false);
 }
 
-// The variables that POV-Ray declares before the first line.
+// The variables that POV-Ray declares before the first line. Of a single picture the frames and clocks are 0.
 void declare_givens(Parser& p) {
     const LoadOptions& options = p.in.options;
+    const int steps = options.final_frame - options.initial_frame;
     declare_number(p, "frame_number", options.frame_number);
     declare_number(p, "initial_frame", options.initial_frame);
     declare_number(p, "final_frame", options.final_frame);
     declare_number(p, "initial_clock", 0);
-    declare_number(p, "final_clock", 1);
-    const int frames = options.final_frame - options.initial_frame;
-    declare_number(p, "clock_delta", frames > 0 ? 1.0 / frames : 1);
+    declare_number(p, "final_clock", steps > 0 ? 1 : 0);
+    declare_number(p, "clock_delta", steps > 0 ? 1.0 / steps : 0);
     declare_number(p, "image_width", options.width.value_or(512));
     declare_number(p, "image_height", options.height.value_or(512));
+    assign(p, p.in.words.intern("input_file_name"), Value{p.scene.file}, false);
 }
 
 // -D NAME=EXPR, each read as `#declare NAME = EXPR;` in a text of its own.

@@ -40,7 +40,7 @@ struct LoadOptions {
         declares;                     // -D NAME=EXPR, evaluated before the first line
     std::optional<int> width, height; // for image_width, image_height
     double clock = 0;
-    int frame_number = 0, initial_frame = 1, final_frame = 1;
+    int frame_number = 0, initial_frame = 0, final_frame = 0; // of a single picture: 0
     Budgets budgets;
 };
 

@@ -242,12 +242,14 @@ const char* type_name(const Value& value) {
         return "function";
     case 8:
         return "open file";
+    case 9:
+        return "spline";
     default:
         break;
     }
     static constexpr const char* blocks[] = {
         "object", "texture",   "pigment",   "finish",     "interior", "light source",
-        "camera", "transform", "npr block", "colour map", "material", "block without meaning here"};
+        "camera", "transform", "npr block", "colour map", "pigment map", "material", "block without meaning here"};
     static_assert(std::size(blocks) == std::variant_size_v<DeclaredBlock>);
     return blocks[std::get<std::shared_ptr<const DeclaredBlock>>(value.data)->index()];
 }

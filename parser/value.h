@@ -53,15 +53,16 @@ struct OpenFile {
 
 struct Macro;    // expander.h
 struct Function; // function.h
+struct Spline;   // spline.h
 
 // Blocks that can be declared; copied on use, heavy data (meshes) is shared inside.
 using DeclaredBlock = std::variant<Object, Texture, Pigment, Finish, Interior, LightSource, Camera, Transform,
-                                   PaintWord, ColorMap, SaidMaterial, SkippedBlock>;
+                                   PaintWord, ColorMap, BlendMap<Pigment>, SaidMaterial, SkippedBlock>;
 
 struct Value {
     std::variant<std::monostate, double, VectorValue, std::string, std::shared_ptr<ArrayValue>,
                  std::shared_ptr<const DeclaredBlock>, std::shared_ptr<const Macro>,
-                 std::shared_ptr<const Function>, std::shared_ptr<OpenFile>>
+                 std::shared_ptr<const Function>, std::shared_ptr<OpenFile>, std::shared_ptr<const Spline>>
         data;
 };
 
