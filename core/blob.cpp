@@ -282,6 +282,27 @@ double blob_density(const BlobData& blob, Vec3 p) {
     return sum;
 }
 
+BlobShares blob_shares(const BlobData& blob, Vec3 p) {
+    boost::container::small_vector<BlobShare, 8> all;
+    visit(
+        blob, [&](const Bounds& b) { return holds(b, p); },
+        [&](const BlobComponent& c) {
+            const double density = component_density(c, p);
+            if (!(density > 0)) return;
+            const auto same = [&](const BlobShare& s) { return s.texture == c.texture; };
+            const auto known = std::find_if(all.begin(), all.end(), same);
+            if (known == all.end())
+                all.push_back({c.texture, density});
+            else
+                known->share += density;
+        });
+    std::stable_sort(all.begin(), all.end(),
+                     [](const BlobShare& a, const BlobShare& b) { return a.share > b.share; });
+    BlobShares shares;
+    for (std::size_t i = 0; i < shares.size() && i < all.size(); ++i) shares[i] = all[i];
+    return shares;
+}
+
 // Components that take away do not reach farther than those that give.
 Bounds bounds_of(const Blob& shape) {
     Bounds all;

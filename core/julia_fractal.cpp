@@ -207,8 +207,9 @@ void intersect(const JuliaFractal& shape, const Ray& ray, HitList& hits, int eno
     if (intersect_shape(Sphere{Vec3(0), radius}, line, ends) < 2) return;
     const double start = std::max(ends.front().t, ray.t_min), end = std::min(ends.back().t, ray.t_max);
     if (!(start < end)) return;
-    // Steps as long as the set is far, but no shorter than a part of what the author calls precise.
-    const double shortest = std::min(0.25 / data.precision, 0.02 * radius) / speed;
+    // Steps as long as the set is far, but no shorter than half of what the author calls precise; inside,
+    // where nothing tells how far its end is, twice that.
+    const double shortest = std::min(0.5 / data.precision, 0.02 * radius) / speed;
     Walk walk{data, ray, hits};
     double before = start, t = start;
     bool inside = holds(data, ray.origin + start * ray.direction);
@@ -222,7 +223,7 @@ void intersect(const JuliaFractal& shape, const Ray& ray, HitList& hits, int eno
         if (now != inside) walk.add(before, t, inside);
         inside = now;
         before = t;
-        t += std::max(shortest, now ? 0.0 : 0.5 * orbit.distance / speed);
+        t += now ? 2 * shortest : std::max(shortest, 0.5 * orbit.distance / speed);
     }
     if (inside && end == ends.back().t && static_cast<int>(hits.size()) < enough) {
         hits.push_back(ends.back());

@@ -52,6 +52,13 @@ struct BlobData {
 // Fills `nodes`.
 void finish_blob(BlobData& blob);
 double blob_density(const BlobData& blob, Vec3 p);
+// What the components of each texture add to the density at p: the largest three, others left out; unused ones are 0.
+struct BlobShare {
+    std::uint32_t texture = no_texture;
+    double share = 0;
+};
+using BlobShares = std::array<BlobShare, 3>;
+BlobShares blob_shares(const BlobData& blob, Vec3 p);
 
 // Heights over the unit square, as a sheet of triangles between the points of a grid.
 struct HeightFieldData {

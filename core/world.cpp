@@ -216,6 +216,7 @@ struct Builder {
     Assets assets;
     std::vector<GeometryItem> items; // in scene space until the offset is known
     std::vector<CsgNode> solids{};
+    std::vector<Surface> parts{}; // of shapes with textures of their own; they come behind the items' surfaces
 
     int number_object(const Object& object, const PaintWord* word) {
         WorldObject entry;
@@ -365,8 +366,34 @@ struct Builder {
         surface.no_shadow = from.no_shadow;
         surface.no_image = from.no_image;
         surface.no_reflection = from.no_reflection;
+        if (const PartTextures* textures = part_textures(item); textures && !from.unseen)
+            item.first_part = add_parts(*textures, from, object.transform, surface);
         add_item(std::move(item), surface);
         return static_cast<std::uint32_t>(items.size()) - 1;
+    }
+
+    static const PartTextures* part_textures(const GeometryItem& item) {
+        const Shape& shape = std::get<Shape>(item.form);
+        if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->data->textures.get();
+        if (const auto* blob = std::get_if<Blob>(&shape)) return blob->textures.get();
+        return nullptr;
+    }
+
+    // The number of the first among `parts`.
+    std::uint32_t add_parts(const PartTextures& textures, Inherited from, const Transform& to_scene, Surface surface) {
+        const auto first = static_cast<std::uint32_t>(parts.size());
+        for (Texture texture : textures.list) {
+            texture.pigment.transform = then(texture.pigment.transform, to_scene);
+            from.texture = &texture;
+            surface.material = add_material(from);
+            parts.push_back(surface);
+        }
+        return first;
+    }
+
+    void append_parts() {
+        for (GeometryItem& item : items) item.first_part += static_cast<std::uint32_t>(items.size());
+        world.surfaces.insert(world.surfaces.end(), parts.begin(), parts.end());
     }
 
     // The emitting area of a light, with the light's position as the origin of its own space.
@@ -472,6 +499,7 @@ World build_world(const Scene& scene, const Settings& settings) {
     for (const Object& object : scene.objects) builder.add_object(object, {}, true);
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         if (scene.lights[i].emitter) builder.add_emitter(scene.lights[i], static_cast<int>(i));
+    builder.append_parts();
     builder.move_to_center();
     builder.find_object_bounds(seen_bounds(builder.items, builder.solids));
     world.background = scene.background;

@@ -8,6 +8,7 @@
 #include "core/parallel.h"
 #include "core/scene.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -80,6 +81,11 @@ struct Hit {
     std::uint32_t surface = 0;   // index into World::surfaces
     std::uint32_t primitive = 0; // stable number of the primitive (mesh triangles count apart), for equality tests
     double error = 0;      // bound on the distance of position to the true surface, world units
+    std::uint32_t leaf = 0;      // whose geometry it is: an index into geometry_items; `surface` may be another's
+    // Where textures run into one another, in a triangle with three or between the parts of a blob: surfaces and their
+    // shares, the largest first, which is `surface`; the shares' sum is 1, or 0: there is no mixture.
+    std::array<std::uint32_t, 3> mixed{};
+    Vec3f shares{0};
 };
 
 std::optional<Hit> closest_hit(const World& world, const Ray& ray, RayKind kind);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parser/lexer.h"
 
+#include "parser/keywords.h"
+#include "parser/number_run.h"
+
 #include <charconv>
 #include <cstring>
 
@@ -184,11 +187,41 @@ void lex_number(Lexer& lexer) {
     add(lexer, TokenKind::number, from, 0, value);
 }
 
+bool is_number_list(Symbol word) {
+    switch (static_cast<Keyword>(word)) {
+    case "vertex_vectors"_kw:
+    case "normal_vectors"_kw:
+    case "uv_vectors"_kw:
+    case "face_indices"_kw:
+    case "normal_indices"_kw:
+    case "uv_indices"_kw:
+        return true;
+    default:
+        return false;
+    }
+}
+
+// Behind the word of such a list: `{` and a run of plain numbers, if it is worth it.
+void lex_number_run(Lexer& lexer) {
+    constexpr std::ptrdiff_t worth_it = 64;
+    const char* brace = lexer.at;
+    while (brace < lexer.end && (*brace == ' ' || *brace == '\n' || *brace == '\t' || *brace == '\r')) ++brace;
+    if (brace == lexer.end || *brace != '{') return;
+    const char* const end = end_of_number_run(brace + 1, lexer.end);
+    if (!end || end - brace < worth_it) return;
+    lexer.at = brace + 1;
+    add(lexer, TokenKind::punctuation, brace, static_cast<Symbol>('{'));
+    lexer.at = end;
+    add(lexer, TokenKind::numbers, brace + 1, 0);
+}
+
 void lex_word(Lexer& lexer) {
     const char* from = lexer.at;
     while (lexer.at < lexer.end && (is_letter(*lexer.at) || is_digit(*lexer.at))) ++lexer.at;
     const std::string_view word(from, static_cast<std::size_t>(lexer.at - from));
-    add(lexer, TokenKind::word, from, lexer.words.intern(american(word)));
+    const Symbol symbol = lexer.words.intern(american(word));
+    add(lexer, TokenKind::word, from, symbol);
+    if (is_number_list(symbol)) lex_number_run(lexer);
 }
 
 void lex_directive(Lexer& lexer) {
@@ -348,7 +381,7 @@ std::vector<Token> lex(const SourceText& source, std::uint32_t source_index, Wor
                        std::vector<std::string>& strings) {
     const char* begin = source.text.data();
     Lexer lexer{source, source_index, words, strings, {}, begin, begin, begin + source.text.size()};
-    lexer.tokens.reserve(source.text.size() / 4);
+    lexer.tokens.reserve(std::min<std::size_t>(source.text.size() / 4, 1 << 16)); // lists of numbers need few
     lex_all(lexer);
     pair_directives(lexer.tokens, strings);
     return std::move(lexer.tokens);

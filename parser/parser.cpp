@@ -16,7 +16,7 @@ std::string token_text(Parser& p, const Token& token, bool quoted) {
                                                                   : "the end of the expression or file";
     const std::string& text = p.in.sources.files[token.span.source].text;
     constexpr std::size_t longest = 40;
-    std::string shown = text.substr(token.span.begin, token.span.end - token.span.begin);
+    std::string shown = text.substr(token.span.begin, std::min<std::size_t>(token.span.end - token.span.begin, longest + 1));
     if (shown.size() > longest) shown = shown.substr(0, longest) + "...";
     for (char& c : shown)
         if (static_cast<unsigned char>(c) < 0x20) c = ' ';

@@ -19,6 +19,7 @@ enum class TokenKind : std::uint8_t {
     directive,   // `#name`; symbol is the name's keyword, value the token to jump to. Never leaves the
                  // expander.
     punctuation, // symbol holds the character, or two of them (first | second << 8) for <= >= !=
+    numbers, // a long list of plain numbers (number_run.h): the text of the span. Only mesh2's parser meets it.
     invalid, // cannot be read; symbol: index of the message in the string table. Never leaves the expander.
 };
 
