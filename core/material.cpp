@@ -10,26 +10,7 @@ namespace pnr {
 
 namespace {
 
-// How far a metal's tint has faded at this angle: 0 facing, 1 grazing; POV-Ray's fit to a metal's Fresnel
-// curve.
-double metal_fade(double cosine) {
-    const double x = std::acos(std::clamp(cosine, 0.0, 1.0)) / (pi / 2);
-    return std::clamp(0.014567225 / ((x - 1.12) * (x - 1.12)) - 0.011612903, 0.0, 1.0);
-}
-
-Color metal_tint(Color pigment, double metallic, double fade) {
-    return Color(1) + static_cast<float>(metallic * (1 - fade)) * (pigment - Color(1));
-}
-
 Color clamp_albedo(Color c) { return glm::clamp(c, Color(0), Color(1)); }
-
-// Between min and max of POV-Ray's reflection; `fresnel` is the interface's reflectance at this angle.
-Color reflection_at(const Reflection& r, Color pigment, double cosine, double fresnel) {
-    const double share = r.fresnel ? fresnel : std::pow(std::max(0.0, 1 - cosine), r.falloff);
-    Color value = r.min + static_cast<float>(share) * (r.max - r.min);
-    if (r.metallic > 0) value *= metal_tint(pigment, r.metallic, metal_fade(cosine));
-    return clamp_albedo(value);
-}
 
 // POV-Ray adds s cos^n to the light's colour without a cosine; a Phong lobe g (n + 2) / (2 pi) cos^n has the
 // same peak for g = 2 s / (n + 2). A half-vector lobe of exponent m looks like a mirror-direction lobe of m
