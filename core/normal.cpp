@@ -2,6 +2,7 @@
 #include "core/normal.h"
 
 #include "core/normal_bumps.h"
+#include "core/pigment.h"
 
 #include <array>
 #include <cmath>

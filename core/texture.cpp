@@ -72,10 +72,29 @@ Color texture_color(const Texture& texture, const SurfacePoint& at) {
     return sum;
 }
 
-bool any_layer(const Texture& texture, const std::function<bool(const TextureLayer&)>& is_such) {
-    if (is_plain(texture)) return std::any_of(texture.layers.begin(), texture.layers.end(), is_such);
-    return std::any_of(texture.textures.begin(), texture.textures.end(),
-                       [&](const auto& entry) { return any_layer(entry.value, is_such); });
+namespace {
+
+using PatternUse = std::function<void(Pattern&)>;
+
+void visit_patterns(Pigment& pigment, const PatternUse& use) {
+    use(pigment.pattern);
+    for (auto& entry : pigment.pigments) visit_patterns(entry.value, use);
+}
+
+void visit_patterns(Normal& normal, const PatternUse& use) {
+    use(normal.pattern);
+    for (auto& entry : normal.normals) visit_patterns(entry.value, use);
+}
+
+} // namespace
+
+void for_each_pattern(Texture& texture, const PatternUse& use) {
+    use(texture.pattern);
+    for (TextureLayer& layer : texture.layers) {
+        visit_patterns(layer.pigment, use);
+        if (layer.normal) visit_patterns(*layer.normal, use);
+    }
+    for (auto& entry : texture.textures) for_each_pattern(entry.value, use);
 }
 
 } // namespace pnr

@@ -64,7 +64,7 @@ Color for_each_layer(std::span<const TextureLayer> layers, const SurfacePoint& a
 // The colour that the point shows in even light: its layers' pigments over each other, blended by the patterns around them.
 Color texture_color(const Texture& texture, const SurfacePoint& at);
 
-// Whether any of the texture's layers, at any depth, is such.
-bool any_layer(const Texture& texture, const std::function<bool(const TextureLayer&)>& is_such);
+// Every pattern of the texture: of its pigments and normals at any depth, and those that pick from textures.
+void for_each_pattern(Texture& texture, const std::function<void(Pattern&)>& use);
 
 } // namespace pnr
