@@ -184,55 +184,66 @@ double pass_surface(const Point& point, Solids& solids) {
     return outside / ior;
 }
 
+// Total reflection is not tinted, and stands in place of the finish's own: `total` tells of it.
 Color transmitted_light(const Shading& shading, const Segment& segment, const Point& point, Vec3 normal, Color share,
-                        SampleState& state) {
+                        bool& total, SampleState& state) {
     if (is_black(share)) return Color{0};
     Vec3 direction = -point.outgoing;
     Solids solids = segment.solids;
     const double eta = pass_surface(point, solids);
-    if (std::abs(eta - 1) > 1e-6 && !refract_direction(point.outgoing, normal, eta, direction)) {
-        direction = mirror_direction(point.outgoing, normal);
-        solids = segment.solids;
-    }
-    return follow(shading, segment, point.hit, direction, share, solids, state);
+    total = std::abs(eta - 1) > 1e-6 && !refract_direction(point.outgoing, normal, eta, direction);
+    if (!total) return follow(shading, segment, point.hit, direction, share, solids, state);
+    direction = mirror_direction(point.outgoing, normal);
+    return follow(shading, segment, point.hit, direction, Color{1}, segment.solids, state);
 }
 
+struct LightParts {
+    Color direct{0}, caustic{0}, glow{0}, specular{0};
+};
+
+Color sum_of(const LightParts& parts) { return parts.direct + parts.caustic + parts.glow + parts.specular; }
+
 // Light of a plain texture. What upper layers let pass tints everything below them but reflections.
-Color layered_light(const Shading& shading, const Segment& segment, const Point& point,
-                    std::span<const TextureLayer> layers, const SurfacePoint& at, SampleState& state) {
+LightParts layered_light(const Shading& shading, const Segment& segment, const Point& point,
+                         std::span<const TextureLayer> layers, const SurfacePoint& at, SampleState& state) {
     const World& world = shading.world;
-    Color direct{0}, caustic{0}, glow{0}, specular{0}, kept{1};
+    LightParts parts;
+    Color kept{1};
+    bool mirrors = false, total = false;
     std::optional<Vec3> normal; // of the uppermost layer
     const Color passed = for_each_layer(layers, at, [&](const LayerPoint& layer) {
         const Look look{point, layer};
         if (!normal) normal = layer.normal;
         Color lit{0};
         for (const Light& light : world.lights) lit += lit_by(shading, look, light, Vec2{0.5}, state);
-        direct += layer.above * lit;
-        caustic += layer.above * caustic_light(shading, look, state);
-        glow += layer.above * layer.color * layer.opacity *
-                (layer.finish.ambient * world.ambient_light + layer.finish.emission);
+        parts.direct += layer.above * lit;
+        parts.caustic += layer.above * caustic_light(shading, look, state);
+        parts.glow += layer.above * layer.color * layer.opacity *
+                      (layer.finish.ambient * world.ambient_light + layer.finish.emission);
         const Color mirror = mirror_share(look);
-        specular += reflected_light(shading, segment, look, mirror, state);
+        mirrors |= !is_black(mirror);
         if (layer.finish.conserve_energy) kept *= glm::max(Color{0}, Color{1} - mirror);
     });
-    if (normal) specular += transmitted_light(shading, segment, point, *normal, passed * kept, state);
-    if (segment.level == 0) {
-        state.direct += direct;
-        state.caustic += caustic;
-        state.specular += specular;
-    }
-    return direct + glow + caustic + specular;
+    if (normal) parts.specular = transmitted_light(shading, segment, point, *normal, passed * kept, total, state);
+    if (mirrors && !total)
+        for_each_layer(layers, at, [&](const LayerPoint& layer) {
+            const Look look{point, layer};
+            parts.specular += reflected_light(shading, segment, look, mirror_share(look), state);
+        });
+    return parts;
 }
 
-Color surface_light(const Shading& shading, const Segment& segment, const Point& point, SampleState& state) {
+LightParts surface_light(const Shading& shading, const Segment& segment, const Point& point, SampleState& state) {
     if (is_plain(point.texture))
         return layered_light(shading, segment, point, point.texture.layers, point.at, state);
-    Color sum{0};
+    LightParts sum;
     for_each_texture(point.texture, point.at, [&](std::span<const TextureLayer> layers, const SurfacePoint& at, double share) {
+        const auto weight = static_cast<float>(share);
         Segment part = segment;
-        part.throughput *= static_cast<float>(share);
-        sum += layered_light(shading, part, point, layers, at, state) * static_cast<float>(share);
+        part.throughput *= weight;
+        const LightParts parts = layered_light(shading, part, point, layers, at, state);
+        sum.direct += weight * parts.direct, sum.caustic += weight * parts.caustic;
+        sum.glow += weight * parts.glow, sum.specular += weight * parts.specular;
     });
     return sum;
 }
@@ -246,8 +257,14 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
     const Point point = make_point(world, *hit, segment.ray.direction);
     if (emitter >= 0)
         return point.inside ? Color{0} : world.lights[static_cast<std::size_t>(emitter)].radiance;
+    const LightParts parts = surface_light(shading, segment, point, state);
+    if (segment.level == 0) {
+        state.direct += parts.direct;
+        state.caustic += parts.caustic;
+        state.specular += parts.specular;
+    }
     const bool medium = segment.level > 0 && point.inside;
-    return surface_light(shading, segment, point, state) *
+    return sum_of(parts) *
            (medium ? interior_transmittance(point.material.interior, hit->t) : Color{1});
 }
 
@@ -256,7 +273,7 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
 Color povray_radiance(const Shading& shading, const Ray& camera_ray, SampleState& state) {
     Segment segment;
     segment.ray = camera_ray;
-    return trace(shading, segment, state);
+    return glm::max(trace(shading, segment, state), Color{0}); // crand and dark lights may take more than there is
 }
 
 } // namespace pnr
