@@ -56,7 +56,7 @@ void parse_pigment_function(Parser& p, Function& function) {
     function.cost = 50;
     auto pigment = std::make_shared<const Pigment>(parse_pigment(p, Pigment{}));
     function.native = [pigment = std::move(pigment)](const double* a, double* results) {
-        const ColorFT color = eval_pigment(*pigment, Vec3(a[0], a[1], a[2]), Vec2(a[0], a[1]));
+        const ColorFT color = eval_pigment(*pigment, {Vec3(a[0], a[1], a[2]), Vec2(a[0], a[1])});
         for (int i = 0; i < 3; ++i) results[i] = color.rgb[i];
         results[3] = color.filter;
         results[4] = color.transmit;
