@@ -72,7 +72,7 @@ double noise_ridge(const double* a) {
         value += share * ridged(noise_at(point, a[8]), a[7]);
         weights += share;
     }
-    return (value / weights - a[6]) / (1 - a[6]);
+    return (value / weights - a[6]) / std::max(a[6], 1 - a[6]);
 }
 
 } // namespace pnr
