@@ -3,6 +3,7 @@
 // builtins_string.cpp.
 #include "parser/builtins.h"
 
+#include "core/noise.h"
 #include "parser/library.h"
 
 #include <fmt/format.h>
@@ -372,6 +373,7 @@ bool is_vector_function(Keyword word) {
     case "vdot"_kw:
     case "vrotate"_kw:
     case "vaxis_rotate"_kw:
+    case "vturbulence"_kw:
         return true;
     default:
         return false;
@@ -381,7 +383,20 @@ bool is_vector_function(Keyword word) {
 Vec3 vec3(const VectorValue& value) { return {value.v[0], value.v[1], value.v[2]}; }
 VectorValue vector(Vec3 v) { return {{v.x, v.y, v.z, 0, 0}, 3, false}; }
 
+// vturbulence(lambda, omega, octaves, point)
+VectorValue turbulence_function(Parser& p, const Token& name) {
+    Turbulence words;
+    words.lambda = number_argument(p);
+    comma_argument(p, name);
+    words.omega = number_argument(p);
+    comma_argument(p, name);
+    words.octaves = static_cast<int>(std::clamp(number_argument(p), 1.0, 10.0));
+    comma_argument(p, name);
+    return vector(turbulence_vector(vec3(vector_argument(p)), words));
+}
+
 VectorValue vector_function(Parser& p, const Token& name) {
+    if (is(name, "vturbulence"_kw)) return turbulence_function(p, name);
     const VectorValue a = vector_argument(p);
     const auto word = static_cast<Keyword>(name.symbol);
     double length = 0;

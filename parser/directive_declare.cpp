@@ -75,6 +75,7 @@ void poison(Expander& in, Symbol symbol) {
 void declare_directive(Parser& p, const Token& directive, bool local) {
     skip_deprecated(p);
     const Token name = peek_raw(p);
+    const std::size_t frame = p.in.frames.size();
     try {
         const HoldScope hold(p);
         Target target = take_target(p, directive);
@@ -82,7 +83,7 @@ void declare_directive(Parser& p, const Token& directive, bool local) {
         p.in.hold.start = p.in.frames.back().position;
         Value value = stored_value(p, name, parse_value(p));
         if (!target.array) {
-            assign(p, target.symbol, std::move(value), local);
+            assign_in(p, target.symbol, std::move(value), local, frame);
         } else {
             Value& element = target.array->elements[target.element];
             if (element.data.index() == 0 &&
@@ -238,7 +239,8 @@ void take_arguments(Parser& p, const Macro& macro, const Token& name, std::vecto
                 arguments.push_back({0, std::move(cell), nullptr, 0});
             }
             if (accept(p, ')')) break;
-            expect(p, ',', "or `)` between the arguments");
+            if (!accept(p, ',') && arguments.size() >= wanted) // POV-Ray lets it be missing
+                expect(p, ',', "or `)` between the arguments");
         }
     }
     if (arguments.size() != wanted)

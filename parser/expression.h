@@ -32,6 +32,8 @@ inline bool is_true(double value) { return std::abs(value) > 1e-10; }   // POV-R
 double scalar_of(Parser& p, const VectorValue& value, const Token& at); // error if it is a vector
 void promote(VectorValue& value, int size);
 
+// POV-Ray's `.gray` of red, green and blue.
+inline double brightness(const double* c) { return 0.297 * c[0] + 0.589 * c[1] + 0.114 * c[2]; }
 int component_index(Keyword word); // of `.x`, `.red` ...; -1: no such component
 
 bool at_string(Parser& p);

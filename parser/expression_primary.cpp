@@ -90,7 +90,7 @@ const Value* shown_value(Parser& p, const Token& token) {
 VectorValue take_component(Parser& p, const VectorValue& value) {
     next(p); // the dot
     const Token name = next(p);
-    if (is(name, "gray"_kw)) return scalar(0.297 * value.v[0] + 0.589 * value.v[1] + 0.114 * value.v[2]);
+    if (is(name, "gray"_kw)) return scalar(brightness(value.v));
     const int index = component_index(keyword_of(name));
     if (index < 0)
         fail(p, name, fmt::format("expected a component behind `.`, found {}", token_text(p, name)),
@@ -388,6 +388,8 @@ std::string parse_string(Parser& p) {
 
 namespace {
 
+Value value_of(Parser& p, Angles angles);
+
 void fill_array(Parser& p, ArrayValue& array, std::size_t dimension, std::size_t& element,
                 const Token& name) {
     open_block(p, "the array's values");
@@ -403,7 +405,7 @@ void fill_array(Parser& p, ArrayValue& array, std::size_t dimension, std::size_t
             if (dimension + 1 < array.dimensions.size())
                 fill_array(p, array, dimension + 1, element, name);
             else
-                array.elements[element++] = stored_value(p, name, parse_value(p));
+                array.elements[element++] = stored_value(p, name, value_of(p, Angles::bracket));
             if (!accept(p, ',')) accept(p, ';');
         }
     } catch (const ParseFailure&) {
@@ -446,7 +448,10 @@ Value array_value(Parser& p) {
     return Value{array};
 }
 
-Value parse_value(Parser& p) {
+namespace {
+
+// Between the values of an array the commas may be missing: there `<` starts the next one.
+Value value_of(Parser& p, Angles angles) {
     const Token token = peek(p);
     const Nesting nesting(p, token);
     if (token.kind == TokenKind::string) return Value{parse_string(p)};
@@ -467,9 +472,13 @@ Value parse_value(Parser& p) {
                 return Value{std::make_shared<const DeclaredBlock>(std::move(*block_value))};
         }
     }
-    VectorValue number = parse_operand_expression(p, Angles::compare);
+    VectorValue number = parse_operand_expression(p, angles);
     if (number.size == 1) return Value{number.v[0]};
     return Value{number};
 }
+
+} // namespace
+
+Value parse_value(Parser& p) { return value_of(p, Angles::compare); }
 
 } // namespace pnr

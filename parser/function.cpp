@@ -67,6 +67,7 @@ double call(const Function& callee, std::uint8_t component, const double* argume
     if (!callee.native) return run(callee, arguments, stack);
     double results[most_results] = {};
     callee.native(arguments, results);
+    if (component == Instruction::gray_component) return brightness(results);
     return results[component];
 }
 

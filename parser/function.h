@@ -51,6 +51,7 @@ struct Instruction {
         sum,      // of calls[index], whose last argument runs from the one on top but one to the one on top; its
         product,  // other arguments are this function's own
     };
+    static constexpr std::uint8_t gray_component = 5; // the brightness of a colour
     Kind kind = Kind::constant;
     std::uint8_t component = 0;
     std::uint32_t index = 0;

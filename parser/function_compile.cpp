@@ -132,6 +132,8 @@ std::uint8_t compile_component(Compiler& c, const Function& callee, const Token&
     }
     next(c.p);
     const Token component = next(c.p);
+    if (is(component, "gray"_kw) && (callee.results == 5 || !callee.unsupported.empty()))
+        return Instruction::gray_component;
     const int number = component_index(keyword_of(component));
     if (number < 0 || (number >= callee.results && callee.unsupported.empty()))
         fail(c.p, component,
