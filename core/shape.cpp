@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/shape_hits.h"
+#include "core/shape_algebraic.h"
+#include "core/shape_swept.h"
 
 #include <algorithm>
 #include <cmath>
@@ -371,6 +372,16 @@ Bounds shape_bounds(const Shape& shape) {
                 for (const Vec3& point : p.points) b = merge(b, point);
                 return b;
             },
+            [](const Quadric& s) { return bounds_of(s); },
+            [](const PolynomialSurface& s) { return bounds_of(s); },
+            [](const Superellipsoid& s) { return bounds_of(s); },
+            [](const Ovus& s) { return bounds_of(s); },
+            [](const Lathe& s) { return bounds_of(s); },
+            [](const Sor& s) { return bounds_of(s); },
+            [](const Prism& s) { return bounds_of(s); },
+            [](const SphereSweep& s) { return bounds_of(s); },
+            [](const Polygon& s) { return bounds_of(s); },
+            [](const Text& s) { return bounds_of(s); },
         },
         shape);
 }
@@ -386,6 +397,16 @@ const char* shape_name(const Shape& shape) {
                           [](const Disc&) { return "disc"; },
                           [](const Mesh&) { return "mesh"; },
                           [](const BicubicPatch&) { return "bicubic_patch"; },
+                          [](const Quadric&) { return "quadric"; },
+                          [](const PolynomialSurface&) { return "poly"; },
+                          [](const Superellipsoid&) { return "superellipsoid"; },
+                          [](const Ovus&) { return "ovus"; },
+                          [](const Lathe&) { return "lathe"; },
+                          [](const Sor&) { return "sor"; },
+                          [](const Prism&) { return "prism"; },
+                          [](const SphereSweep&) { return "sphere_sweep"; },
+                          [](const Polygon&) { return "polygon"; },
+                          [](const Text&) { return "text"; },
                       },
                       shape);
 }
@@ -405,6 +426,16 @@ int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits) {
                    [&](const Disc& d) { intersect_disc(d, out); },
                    [](const Mesh&) {},
                    [](const BicubicPatch&) {},
+                   [&](const Quadric& s) { intersect(s, ray, hits); },
+                   [&](const PolynomialSurface& s) { intersect(s, ray, hits); },
+                   [&](const Superellipsoid& s) { intersect(s, ray, hits); },
+                   [&](const Ovus& s) { intersect(s, ray, hits); },
+                   [&](const Lathe& s) { intersect(s, ray, hits); },
+                   [&](const Sor& s) { intersect(s, ray, hits); },
+                   [&](const Prism& s) { intersect(s, ray, hits); },
+                   [&](const SphereSweep& s) { intersect(s, ray, hits); },
+                   [&](const Polygon& s) { intersect(s, ray, hits); },
+                   [&](const Text& s) { intersect(s, ray, hits); },
                },
                shape);
     return static_cast<int>(hits.size());
@@ -429,6 +460,16 @@ bool inside_shape(const Shape& shape, Vec3 p) {
             [&](const Disc& d) { return glm::dot(d.normal, p - d.center) <= 0; },
             [](const Mesh&) { return false; },
             [](const BicubicPatch&) { return false; },
+            [&](const Quadric& s) { return is_inside(s, p); },
+            [&](const PolynomialSurface& s) { return is_inside(s, p); },
+            [&](const Superellipsoid& s) { return is_inside(s, p); },
+            [&](const Ovus& s) { return is_inside(s, p); },
+            [&](const Lathe& s) { return is_inside(s, p); },
+            [&](const Sor& s) { return is_inside(s, p); },
+            [&](const Prism& s) { return is_inside(s, p); },
+            [&](const SphereSweep& s) { return is_inside(s, p); },
+            [&](const Polygon& s) { return is_inside(s, p); },
+            [&](const Text& s) { return is_inside(s, p); },
         },
         shape);
 }

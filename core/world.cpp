@@ -57,6 +57,7 @@ bool is_finite(const Shape& shape) {
             [](const BicubicPatch& p) {
                 return std::all_of(p.points.begin(), p.points.end(), [](Vec3 q) { return is_finite(q); });
             },
+            [](const auto&) { return true; }, // those that are made of finite numbers alone
         },
         shape);
 }
