@@ -53,7 +53,8 @@ std::vector<PlacedGlyph> set_text(const std::string& font_file, const std::strin
         throw std::invalid_argument("cannot take letters from `" + font_file + "`: " + why);
     std::map<char32_t, std::shared_ptr<const std::vector<CurvePiece>>> outlines;
     std::vector<PlacedGlyph> placed;
-    Vec2 pen(0);
+    Vec2 pen(glyphs.empty() ? 0 : -glyphs[0].bearing,
+             0); // the first letter begins at x = 0 [measured on POV-Ray 3.7]
     for (std::size_t i = 0; i < glyphs.size(); ++i) {
         auto& outline = outlines[letters[i]];
         if (!outline) outline = make_outline(glyphs[i]);

@@ -59,6 +59,7 @@ FT_UInt glyph_index(FT_Face face, char32_t letter) {
 bool read_glyph(FT_Face face, FT_UInt index, double scale, FontGlyph& glyph) {
     if (FT_Load_Glyph(face, index, FT_LOAD_NO_SCALE) != 0) return false;
     glyph.advance = scale * static_cast<double>(face->glyph->metrics.horiAdvance);
+    glyph.bearing = scale * static_cast<double>(face->glyph->metrics.horiBearingX);
     if (face->glyph->format != FT_GLYPH_FORMAT_OUTLINE) return false;
     Drawing d{glyph.curves, scale};
     const FT_Outline_Funcs calls{move_to, line_to, conic_to, cubic_to, 0, 0};

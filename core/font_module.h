@@ -19,6 +19,7 @@ struct GlyphCurve {
 struct FontGlyph {
     std::vector<GlyphCurve> curves; // closed outlines, one after the other
     double advance = 0;             // ems
+    double bearing = 0;             // from the pen to the leftmost point
     double kerning = 0;             // to the letter before
 };
 
