@@ -3,6 +3,9 @@
 // pictures.
 #include "core/povray_finish.h"
 
+#include "core/area_light.h"
+#include "core/probe.h"
+
 namespace pnr {
 namespace {
 
@@ -11,6 +14,7 @@ struct Segment {
     RayKind kind = RayKind::camera;
     int level = 0;
     Color throughput{1};
+    int solids = 0; // without `hollow` about the ray: there is no fog in them
 };
 
 // A hit with all that POV-Ray's formulas ask of it.
@@ -44,10 +48,20 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state);
 
 // Share of a light that reaches the hit: what lies between tints it by its pigment, opaque things stop it.
 // With a caustic map the light through refracting photon targets comes from there.
-Color light_through(const Shading& shading, const Hit& from, const LightSample& sample) {
+Color light_through(const Shading& shading, const Hit& from, const Light& light, const LightSample& sample) {
     const World& world = shading.world;
     Color passed{1};
     Ray ray = connect(from, sample.point, sample.error);
+    if (light.window) { // what stands between the light and its window throws no shadow
+        const auto window = trace(*light.window, sample.point + light.offset, -sample.direction);
+        if (!window) return Color{0};
+        const double way = sample.distance - glm::distance(window->position, sample.point + light.offset);
+        if (way <= 0) return Color{0};
+        ray.t_max = std::min(ray.t_max, way);
+    }
+    if (is_occluded(world, ray, RayKind::blocker)) return Color{0};
+    if (light.said.media_attenuation) passed = fog_transmittance(world, ray, ray.t_max);
+    if (!world.tinted_shadows) return passed;
     const double whole = ray.t_max;
     double gone = 0;
     for (int surfaces = 0; surfaces < 4 * shading.settings.max_trace_level + 16; ++surfaces) {
@@ -70,6 +84,24 @@ Color light_through(const Shading& shading, const Hit& from, const LightSample& 
     return Color{0};
 }
 
+// The same from another point of the light.
+LightSample sample_toward(const Light& light, Vec3 position, Vec3 from) {
+    LightSample sample = sample_light(light, position, Vec2{0.5});
+    sample.point = from;
+    sample.distance = glm::length(from - position);
+    if (sample.distance > 0) sample.direction = (from - position) / sample.distance;
+    return sample;
+}
+
+// Share of a light's colour that reaches the hit, over all its area and through its window.
+Color light_share(const Shading& shading, const Hit& hit, const Light& light, const LightSample& sample,
+                  SampleState& state) {
+    if (!light.has_extent() || light.said.area->illuminates) return light_through(shading, hit, light, sample);
+    return area_mean(view_area(light, hit.position, state.rng.bits()), [&](Vec3 from) {
+        return light_through(shading, hit, light, sample_toward(light, hit.position, from));
+    });
+}
+
 // POV-Ray's Fresnel-like curve by which metallic highlights and reflections lose their tint at grazing light;
 // x is the angle from the normal over 90 degrees.
 float metallic_tint_loss(double cosine) {
@@ -84,8 +116,8 @@ Color metallic_tint(Color color, double metallic, double cosine) {
 }
 
 // Diffuse, phong and specular light of one light source.
-Color lit_by(const Shading& shading, const Point& point, const Light& light, Vec2 u) {
-    const LightSample sample = sample_light(light, point.hit.position, u);
+Color lit_from(const Shading& shading, const Point& point, const Light& light, const LightSample& sample,
+               SampleState& state) {
     if (is_black(sample.irradiance)) return Color{0};
     const double cosine = glm::dot(sample.direction, point.normal);
     if (cosine <= 0) return Color{0};
@@ -108,7 +140,15 @@ Color lit_by(const Shading& shading, const Point& point, const Light& light, Vec
     // A light of colour c gives the irradiance pi c cos: POV-Ray's diffuse is albedo c cos.
     sum *= sample.irradiance / static_cast<float>(pi);
     if (is_black(sum) || light.said.shadowless) return sum;
-    return sum * light_through(shading, point.hit, sample);
+    return sum * light_share(shading, point.hit, light, sample, state);
+}
+
+Color lit_by(const Shading& shading, const Point& point, const Light& light, SampleState& state) {
+    if (!light.said.area || !light.said.area->illuminates || !light.has_extent())
+        return lit_from(shading, point, light, sample_light(light, point.hit.position, Vec2{0.5}), state);
+    return area_mean(view_area(light, point.hit.position, state.rng.bits()), [&](Vec3 from) {
+        return lit_from(shading, point, light, sample_toward(light, point.hit.position, from), state);
+    });
 }
 
 // How much of the reflected ray is seen at this angle.
@@ -128,9 +168,9 @@ Color reflectance(const Point& point) {
 }
 
 Color follow(const Shading& shading, const Segment& segment, const Hit& hit, Vec3 direction, Color weight,
-             SampleState& state) {
+             int solids, SampleState& state) {
     const Segment next{leave(hit, direction), RayKind::specular, segment.level + 1,
-                       segment.throughput * weight};
+                       segment.throughput * weight, solids};
     if (next.level > shading.settings.max_trace_level) return Color{0};
     if (max_component(next.throughput) < shading.settings.adc_bailout) return Color{0};
     return weight * trace(shading, next, state);
@@ -151,7 +191,8 @@ Color reflected_light(const Shading& shading, const Segment& segment, const Poin
                       SampleState& state) {
     if (is_black(share)) return Color{0};
     Color found =
-        follow(shading, segment, point.hit, mirror_direction(point.outgoing, point.normal), share, state);
+        follow(shading, segment, point.hit, mirror_direction(point.outgoing, point.normal), share, segment.solids,
+               state);
     const double exponent = point.material.finish.reflection.exponent;
     if (exponent != 1) {
         const Color seen = found / glm::max(share, Color{1e-12f});
@@ -165,16 +206,21 @@ Color transmitted_light(const Shading& shading, const Segment& segment, const Po
     if (is_black(share)) return Color{0};
     Vec3 direction = -point.outgoing;
     const double ior = point.material.interior.ior;
-    if (ior != 1 && !refract_direction(point.outgoing, point.normal, point.inside ? ior : 1 / ior, direction))
-        direction = mirror_direction(point.outgoing, point.normal);
-    return follow(shading, segment, point.hit, direction, share, state);
+    const bool inward = ior == 1 || refract_direction(point.outgoing, point.normal, point.inside ? ior : 1 / ior, direction);
+    if (!inward) direction = mirror_direction(point.outgoing, point.normal);
+    const Surface& surface = shading.world.surfaces[point.hit.surface];
+    const int step = !inward || surface.hollow || !surface.closed ? 0 : point.inside ? -1 : 1;
+    return follow(shading, segment, point.hit, direction, share, std::max(0, segment.solids + step), state);
 }
 
 Color trace(const Shading& shading, const Segment& segment, SampleState& state) {
     ++state.rays;
     const World& world = shading.world;
     const std::optional<Hit> hit = closest_hit(world, segment.ray, segment.kind);
-    if (!hit) return world.background;
+    if (!hit)
+        return segment.solids > 0 ? sky_radiance(world, segment.ray.direction)
+                                  : through_atmosphere(world, segment.ray, infinity,
+                                                       sky_radiance(world, segment.ray.direction));
     const int emitter = world.surfaces[hit->surface].light;
     const Point point = make_point(world, *hit, segment.ray.direction);
     if (emitter >= 0)
@@ -182,8 +228,8 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
     const Finish& finish = point.material.finish;
 
     Color direct{0};
-    for (std::size_t i = 0; i < world.lights.size(); ++i)
-        direct += lit_by(shading, point, world.lights[i], Vec2{0.5});
+    for (const Light& light : world.lights)
+        if (shines_on(light, world.surfaces[hit->surface])) direct += lit_by(shading, point, light, state);
     const Color caustic = caustic_light(shading, point, state);
     const Color glow = point.color * point.opacity * (finish.ambient * world.ambient_light + finish.emission);
     const Color mirror = reflectance(point);
@@ -198,8 +244,9 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
         state.specular += specular;
     }
     const bool medium = segment.level > 0 && point.inside;
-    return (surface + specular) *
-           (medium ? interior_transmittance(point.material.interior, hit->t) : Color{1});
+    const Color seen =
+        (surface + specular) * (medium ? interior_transmittance(point.material.interior, hit->t) : Color{1});
+    return segment.solids > 0 ? seen : through_atmosphere(world, segment.ray, hit->t, seen);
 }
 
 } // namespace
@@ -207,6 +254,7 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
 Color povray_radiance(const Shading& shading, const Ray& camera_ray, SampleState& state) {
     Segment segment;
     segment.ray = camera_ray;
+    segment.solids = shading.world.camera_solids;
     return trace(shading, segment, state);
 }
 

@@ -153,6 +153,18 @@ bool is_plain_union(const Object& object) {
     return !object.shape && object.combination == Combination::unite && !object.inverse;
 }
 
+bool lets_light_through(const Material& material) {
+    return std::any_of(material.pigment.map.begin(), material.pigment.map.end(), [](const ColorStop& stop) {
+        return stop.color.filter > 0 || stop.color.transmit > 0;
+    }) || std::holds_alternative<ImagePattern>(material.pigment.pattern);
+}
+
+// Who passes its surface goes in or out of something.
+bool bounds_a_solid(const Shape& shape) {
+    return !std::holds_alternative<Disc>(shape) && !std::holds_alternative<Mesh>(shape) &&
+           !std::holds_alternative<BicubicPatch>(shape);
+}
+
 const char* group_name(Combination combination) {
     switch (combination) {
     case Combination::merge:
@@ -175,6 +187,8 @@ struct Inherited {
     std::vector<std::uint32_t> clips; // nodes of the solids that clip it
     Bounds limits{Vec3(-infinity), Vec3(infinity)}; // bounded_by
     int object = 0;
+    int light_group = 0;
+    bool global_lights = true, hollow = false;
     bool cutaway = false;
     bool unseen = false; // clips: they have no surface
     bool no_shadow = false, no_image = false, no_reflection = false;
@@ -212,10 +226,14 @@ struct Builder {
         return static_cast<int>(world.materials.size()) - 1;
     }
 
-    void add_item(GeometryItem item, Surface surface) {
+    // `bare`: it may show another's texture.
+    void add_item(GeometryItem item, Surface surface, bool bare) {
         if (surface.no_image) item.hidden_from |= ray_bit(RayKind::camera);
         if (surface.no_reflection) item.hidden_from |= ray_bit(RayKind::specular);
         if (surface.no_shadow) item.hidden_from |= ray_bit(RayKind::shadow);
+        const bool clear = surface.light < 0 && lets_light_through(world.materials[static_cast<std::size_t>(surface.material)]);
+        if (surface.no_shadow || clear || bare) item.hidden_from |= ray_bit(RayKind::blocker);
+        world.tinted_shadows |= !surface.no_shadow && (clear || bare);
         items.push_back(std::move(item));
         world.surfaces.push_back(surface);
     }
@@ -232,6 +250,8 @@ struct Builder {
         from.no_image |= object.no_image;
         from.no_reflection |= object.no_reflection;
         from.cutaway |= object.cutaway_textures;
+        from.hollow |= object.hollow;
+        if (object.light_group > 0) from.light_group = object.light_group, from.global_lights = object.global_lights;
         for (const Object& bound : object.bounds) from.limits = common(from.limits, object_bounds(bound));
         return from;
     }
@@ -333,7 +353,11 @@ struct Builder {
         surface.no_shadow = from.no_shadow;
         surface.no_image = from.no_image;
         surface.no_reflection = from.no_reflection;
-        add_item(std::move(item), surface);
+        surface.light_group = from.light_group;
+        surface.global_lights = from.global_lights;
+        surface.hollow = from.hollow;
+        surface.closed = bounds_a_solid(*object.shape);
+        add_item(std::move(item), surface, from.cutaway && !from.texture);
         return static_cast<std::uint32_t>(items.size()) - 1;
     }
 
@@ -361,7 +385,7 @@ struct Builder {
         Surface surface;
         surface.light = index;
         surface.no_image = light.no_image;
-        add_item(std::move(item), surface);
+        add_item(std::move(item), surface, false);
     }
 
     Bounds bounded() const;
@@ -397,11 +421,17 @@ void Builder::move_to_center() {
         for (Seed& seed : object.paint.seeds) seed.position -= world.offset;
     }
     world.camera = scene.camera;
-    world.camera.location -= world.offset;
+    world.camera.mesh_offset = -world.offset;
+    if (!world.camera.mesh) world.camera.location -= world.offset;
+    world.atmosphere = scene.atmosphere;
+    for (Fog& fog : world.atmosphere.fogs) fog.offset -= glm::dot(world.offset, fog.up);
     for (LightSource light : scene.lights) {
         light.position -= world.offset;
         light.point_at -= world.offset;
         world.lights.push_back(make_light(light));
+        Light& made = world.lights.back();
+        made.offset = world.offset;
+        if (!light.projected_through.empty()) made.window = make_probe(light.projected_through.front());
     }
 }
 
@@ -415,9 +445,26 @@ void Builder::find_object_bounds(const std::vector<Bounds>& boxes) {
 Illumination choose_illumination(const Scene& scene, const World& world, const PhotonSettings& photons) {
     const bool emitters = std::any_of(scene.lights.begin(), scene.lights.end(),
                                       [](const LightSource& light) { return light.emitter.has_value(); });
-    if (emitters || world.has_paint || scene.radiosity || photons.global.value_or(false))
+    if (emitters || world.has_paint || (scene.radiosity && !scene.povray) || photons.global.value_or(false))
         return Illumination::photon_mapped;
+    if (scene.radiosity) return Illumination::radiosity;
     return photons.wanted ? Illumination::caustics : Illumination::raytraced;
+}
+
+// How many solids without `hollow` hold a point.
+int solids_about(const std::vector<Object>& objects, Vec3 point, bool hollow) {
+    int count = 0;
+    for (const Object& object : objects) {
+        if (hollow || object.hollow) continue;
+        if (is_plain_union(object)) {
+            count += solids_about(object.children, point, false);
+            continue;
+        }
+        const Bounds box = object_bounds(object);
+        const bool near = glm::all(glm::lessThanEqual(box.low, point)) && glm::all(glm::lessThanEqual(point, box.high));
+        if ((near || object.inverse) && is_inside(*make_probe(object), point)) ++count;
+    }
+    return count;
 }
 
 void check_lights_and_camera(const Scene& scene) {
@@ -442,7 +489,7 @@ World build_world(const Scene& scene, const Settings& settings) {
         if (scene.lights[i].emitter) builder.add_emitter(scene.lights[i], static_cast<int>(i));
     builder.move_to_center();
     builder.find_object_bounds(seen_bounds(builder.items, builder.solids));
-    world.background = scene.background;
+    if (!scene.atmosphere.fogs.empty()) world.camera_solids = solids_about(scene.objects, scene.camera.location, false);
     world.ambient_light = scene.ambient_light;
     world.has_paint =
         std::any_of(world.objects.begin(), world.objects.end(), [](const WorldObject& o) { return o.npr; });
