@@ -70,6 +70,12 @@ double omnimax_radius(double angle) { // Newton: the slope is never less than 1.
 
 double omnimax_stretch(const Camera& c) { return 2 * omnimax_share * glm::length(c.right) / glm::length(c.up); }
 
+// Its foot is cut off by the ellipse that a picture of 4 : 3 holds.
+bool within_omnimax(const Camera& c, double x, double y) {
+    const double a = 2 * x * glm::length(c.right) / glm::length(c.up) * 0.75, b = 2 * y;
+    return a * a + b * b <= 1;
+}
+
 Vec3 round_direction(double a, double b, double angle_of_1, bool omnimax) {
     const double r = std::hypot(a, b);
     if (r > 1) return Vec3(0);
@@ -94,6 +100,7 @@ Vec3 direction_in_axes(const Camera& c, double x, double y) {
         return round_direction(2 * x * glm::length(c.right), 2 * y * glm::length(c.up),
                                radians(c.h_angle) / 2, false);
     case Projection::omnimax:
+        if (!within_omnimax(c, x, y)) return Vec3(0);
         return round_direction(x * omnimax_stretch(c), 2 * omnimax_share * y + omnimax_shift, 0, true);
     case Projection::ultra_wide_angle:
         return {std::sin(ax), std::sin(ay), std::cos(ax) * std::cos(ay)};
@@ -151,7 +158,10 @@ std::optional<Vec2> on_picture_plane(const Camera& c, Vec3 v) {
         const double r = omnimax ? omnimax_radius(angle) : angle / (h / 2);
         if (!(r <= 1)) return std::nullopt;
         const Vec2 ab = away() > 0 ? r / away() * Vec2(v.x, v.y) : Vec2(0);
-        if (omnimax) return Vec2(ab.x / omnimax_stretch(c), (ab.y - omnimax_shift) / (2 * omnimax_share));
+        if (omnimax) {
+            const Vec2 p(ab.x / omnimax_stretch(c), (ab.y - omnimax_shift) / (2 * omnimax_share));
+            return within_omnimax(c, p.x, p.y) ? std::optional(p) : std::nullopt;
+        }
         return ab / (2.0 * Vec2(glm::length(c.right), glm::length(c.up)));
     }
     case Projection::ultra_wide_angle: { // v = s (sin ax, sin ay, cos ax cos ay); s^2 solves a quadratic equation
@@ -202,7 +212,7 @@ Ray lens_ray(const PictureView& view, Vec2 pixel, Vec2 on_lens) {
     if (!(along > 1e-6)) return ray;
     const Vec3 sharp = ray.origin + ray.direction * (c.lens.distance / along);
     const Vec3 across = glm::normalize(glm::cross(forward, c.up));
-    ray.origin += c.lens.aperture / 2 * (on_lens.x * across + on_lens.y * glm::cross(across, forward));
+    ray.origin += c.lens.aperture / 4 * (on_lens.x * across + on_lens.y * glm::cross(across, forward));
     ray.direction = glm::normalize(sharp - ray.origin);
     return ray;
 }

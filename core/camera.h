@@ -29,8 +29,8 @@ enum class Projection {
     mesh
 };
 
-// Focal blur: rays start on a disc about the location, at right angles to the direction, of this diameter, and meet those
-// from the location on the plane at `distance` along the direction.
+// Focal blur: rays start on a disc about the location, at right angles to the direction, whose diameter is half the
+// aperture, and meet those from the location on the plane at `distance` along the direction.
 struct Lens {
     double aperture = 0; // 0: a pinhole
     double distance = 1;

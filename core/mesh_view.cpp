@@ -14,6 +14,9 @@ struct ViewFace {
     std::array<Vec2, 3> uvs;
 };
 
+// As POV-Ray has it: against the winding.
+Vec3 flat_normal(const std::array<Vec3, 3>& p) { return glm::cross(p[2] - p[0], p[1] - p[0]); }
+
 // Cells of the unit square of uv; each lists the faces whose triangle may touch it.
 constexpr int cells = 64;
 
@@ -46,7 +49,7 @@ void add_faces(const MeshViewPart& part, std::vector<ViewFace>& faces) {
             face.corners[k] = transform_point(part.transform.matrix, Vec3(mesh.positions[mesh.triangles[i][k]]));
             face.uvs[k] = mesh.uv_triangles.empty() ? Vec2(0) : Vec2(mesh.uvs[mesh.uv_triangles[i][k]]);
         }
-        const Vec3 flat = glm::cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
+        const Vec3 flat = flat_normal(face.corners);
         for (std::size_t k = 0; k < 3; ++k)
             face.normals[k] = mesh.normal_triangles.empty()
                                   ? flat
@@ -108,8 +111,7 @@ Ray mesh_view_ray(const MeshView& view, const Camera& camera, Vec2 pixel, int wi
     const auto mixed = [&](const std::array<Vec3, 3>& v) {
         return at.weights.x * v[0] + at.weights.y * v[1] + at.weights.z * v[2];
     };
-    const Vec3 flat = glm::cross(f.corners[1] - f.corners[0], f.corners[2] - f.corners[0]);
-    Vec3 normal = view.smooth ? mixed(f.normals) : flat;
+    Vec3 normal = view.smooth ? mixed(f.normals) : flat_normal(f.corners);
     if (!(glm::length(normal) > 0)) return nothing;
     normal = glm::normalize(normal);
     const Vec3 start = mixed(f.corners) + camera.mesh_offset + camera.location.z * normal;

@@ -244,9 +244,9 @@ void finish_camera(Parser& p, const Token& at, SaidCamera& said) {
         camera.right *= scale;
         camera.up *= scale;
     }
-    if (said.focal_point || !said.copied)
-        camera.lens.distance = std::abs(glm::dot(said.focal_point.value_or(Vec3(0)) - camera.location,
-                                                 glm::normalize(camera.direction)));
+    if (said.focal_point)
+        camera.lens.distance =
+            std::abs(glm::dot(*said.focal_point - camera.location, glm::normalize(camera.direction)));
     apply_transform(said.transform, camera);
 }
 
