@@ -3,6 +3,7 @@
 // ray at a time.
 #include "core/atmosphere.h"
 
+#include "core/noise.h"
 #include "core/world.h"
 
 #include <algorithm>
@@ -36,21 +37,26 @@ double ground_density(const Fog& fog, const Ray& ray, double distance) {
     return std::clamp(-std::min(start, end) / rise, 0.0, 1.0);
 }
 
+// How much thinner turbulence makes the way: less far away.
+double turbulent_share(const Fog& fog, const Vec3 middle, double distance) {
+    const Turbulence words{Vec3(1), fog.octaves, fog.omega, fog.lambda};
+    const double swirl = turbulence(middle * fog.turbulence, words, 2);
+    return 1 - std::exp(-distance / fog.distance) * std::min(1.0, swirl * fog.depth);
+}
+
 // Share of what is `distance` away that is seen.
-float left_by_fog(const Fog& fog, const Ray& ray, double distance) {
+float left_by_fog(const World& world, const Fog& fog, const Ray& ray, double distance) {
     if (!(fog.distance > 0)) return 1;
     distance = std::min(distance, far_away);
+    double thinned = 1;
+    if (fog.turbulence != Vec3(0))
+        thinned = turbulent_share(fog, world.offset + ray.origin + distance / 2 * ray.direction, distance);
     if (fog.ground) distance *= ground_density(fog, ray, distance);
+    distance *= thinned;
     return std::max(static_cast<float>(std::exp(-distance / fog.distance)), fog.color.transmit);
 }
 
 Color fog_tint(const Fog& fog) { return Color(1 - fog.color.filter) + fog.color.filter * fog.color.rgb; }
-
-Color through_fog(const Fog& fog, const Ray& ray, double distance, Color behind) {
-    if (!(fog.distance > 0)) return behind;
-    const float left = left_by_fog(fog, ray, distance);
-    return left * behind * fog_tint(fog) + (1 - left) * fog.color.rgb;
-}
 
 // ---- rainbow
 // --------------------------------------------------------------------------------------------------
@@ -97,7 +103,7 @@ Color sky_radiance(const World& world, Vec3 direction) {
     const Atmosphere& air = world.atmosphere;
     Color below = air.background.rgb * std::max(0.0f, 1 - air.background.filter - air.background.transmit);
     for (const Pigment& layer : air.sky.layers) {
-        const ColorFT c = eval_pigment(layer, direction, Vec2(0));
+        const ColorFT c = eval_pigment(layer, SurfacePoint{direction});
         const float opacity = std::max(0.0f, 1 - c.filter - c.transmit);
         below = opacity * c.rgb * air.sky.emission + below * (c.rgb * c.filter + Color(c.transmit));
     }
@@ -112,7 +118,7 @@ bool has_sky_light(const World& world) {
 Color fog_transmittance(const World& world, const Ray& ray, double distance) {
     Color left(1);
     for (const Fog& fog : world.atmosphere.fogs)
-        if (fog.distance > 0) left *= left_by_fog(fog, ray, distance) * fog_tint(fog);
+        if (fog.distance > 0) left *= left_by_fog(world, fog, ray, distance) * fog_tint(fog);
     return left;
 }
 
@@ -120,7 +126,6 @@ Color through_atmosphere(const World& world, const Ray& ray, double distance, Co
     const Atmosphere& air = world.atmosphere;
     for (const Rainbow& rainbow : air.rainbows) behind = through_rainbow(rainbow, ray, distance, behind);
     for (auto fog = air.fogs.rbegin(); fog != air.fogs.rend(); ++fog) // the first one said lies in front
-        behind = through_fog(*fog, ray, distance, behind);
     return behind;
 }
 

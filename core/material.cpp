@@ -71,7 +71,7 @@ Bsdf make_bsdf(const World& world, const Hit& hit, Vec3 outgoing) {
     }
     const Material& material = world.materials[static_cast<std::size_t>(surface.material)];
     const Finish& finish = material.finish;
-    const ColorFT pigment = eval_pigment(material.pigment, hit.position, hit.uv);
+    const ColorFT pigment = eval_pigment(material.pigment, surface_point(hit, -outgoing));
     const Color rgb = clamp_albedo(pigment.rgb);
     const double cosine = std::clamp(glm::dot(bsdf.normal, outgoing), 0.0, 1.0);
     bsdf.emission = finish.emission * pigment.rgb;
@@ -109,12 +109,7 @@ bool is_specular(const Material& material) {
     if (max_component(material.finish.reflection.max) > 0 ||
         max_component(material.finish.reflection.min) > 0)
         return true;
-    if (const auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern))
-        return picture->once || std::any_of(picture->image->pixels.begin(), picture->image->pixels.end(),
-                                            [](const glm::vec4& p) { return p.w < 1; });
-    return std::any_of(material.pigment.map.begin(), material.pigment.map.end(), [](const ColorStop& stop) {
-        return stop.color.filter > 0 || stop.color.transmit > 0;
-    });
+    return is_see_through(material.pigment);
 }
 
 bool has_diffuse(const Bsdf& bsdf) { return !is_black(bsdf.diffuse) || !is_black(bsdf.glossy); }

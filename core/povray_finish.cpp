@@ -32,7 +32,7 @@ struct Point {
 Point make_point(const World& world, const Hit& hit, Vec3 direction) {
     const Surface& surface = world.surfaces[hit.surface];
     const Material& material = world.materials[static_cast<std::size_t>(surface.material)];
-    const ColorFT c = eval_pigment(material.pigment, hit.position, hit.uv);
+    const ColorFT c = eval_pigment(material.pigment, surface_point(hit, direction));
     const bool inside = glm::dot(hit.normal, direction) > 0;
     return {hit,
             material,

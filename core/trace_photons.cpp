@@ -112,7 +112,7 @@ Outcome scatter_by_roles(const Material& material, const Hit& hit, const Bsdf& b
                          glm::dvec3 flux, Vec3 u, double xi) {
     const double psr = std::clamp(material.photons.specular_probability.value_or(0), 0.0, 1.0);
     const double pa = std::clamp(material.photons.absorption_probability.value_or(0), 0.0, 1.0);
-    const glm::dvec3 rgb(glm::max(eval_pigment(material.pigment, hit.position, hit.uv).rgb, Color(0)));
+    const glm::dvec3 rgb(glm::max(eval_pigment(material.pigment, surface_point(hit, -outgoing)).rgb, Color(0)));
     const double most = largest(rgb);
     const glm::dvec3 tint = most > 0 ? rgb / most : glm::dvec3(1);
     const double metal =

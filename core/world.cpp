@@ -153,11 +153,7 @@ bool is_plain_union(const Object& object) {
     return !object.shape && object.combination == Combination::unite && !object.inverse;
 }
 
-bool lets_light_through(const Material& material) {
-    return std::any_of(material.pigment.map.begin(), material.pigment.map.end(), [](const ColorStop& stop) {
-        return stop.color.filter > 0 || stop.color.transmit > 0;
-    }) || std::holds_alternative<ImagePattern>(material.pigment.pattern);
-}
+bool lets_light_through(const Material& material) { return is_see_through(material.pigment); }
 
 // Who passes its surface goes in or out of something.
 bool bounds_a_solid(const Shape& shape) {
@@ -220,7 +216,7 @@ struct Builder {
         }
         if (from.interior) material.interior = *from.interior;
         if (from.photons) material.photons = *from.photons;
-        if (auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern))
+        if (auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern.kind))
             picture->image = assets.image(*picture, scene.assumed_gamma);
         world.materials.push_back(std::move(material));
         return static_cast<int>(world.materials.size()) - 1;
@@ -415,7 +411,7 @@ void Builder::move_to_center() {
         item.limits = {item.limits.low - world.offset, item.limits.high - world.offset};
     }
     for (Material& material : world.materials)
-        material.pigment.transform = then(material.pigment.transform, move);
+        transform_pigment(material.pigment, move);
     for (WorldObject& object : world.objects) {
         object.paint.field_point -= world.offset;
         for (Seed& seed : object.paint.seeds) seed.position -= world.offset;

@@ -97,6 +97,11 @@ std::optional<Hit> closest_hit(const World& world, const Ray& ray, RayKind kind)
 // Whether anything lies in (t_min, t_max).
 bool is_occluded(const World& world, const Ray& ray, RayKind kind);
 
+// What patterns want to know of a hit; `direction` is the ray's, unit.
+inline SurfacePoint surface_point(const Hit& hit, Vec3 direction) {
+    return {hit.position, hit.uv, hit.shading_normal, direction};
+}
+
 // The ray that leaves a hit towards `direction` (unit): its origin is moved off the surface to the direction's side by the
 // hit's error bound, never by a loose constant.
 Ray leave(const Hit& hit, Vec3 direction, double t_max = infinity);

@@ -26,7 +26,7 @@ Vec3 light_direction(const AxisSource& source, Vec3 position) {
 Vec3 pigment_direction(const AxisSource& source, Vec3 position, Vec3 normal) {
     const Frame frame = make_frame(normal);
     const auto lightness = [&](Vec3 p) {
-        return static_cast<double>(luminance(eval_pigment(source.pigment, p, Vec2(0)).rgb));
+        return static_cast<double>(luminance(eval_pigment(source.pigment, {p, Vec2(0), normal}).rgb));
     };
     const double x =
         lightness(position + frame.x * source.reach) - lightness(position - frame.x * source.reach);

@@ -6,6 +6,8 @@
 
 #include "parser/parser.h"
 
+#include <algorithm>
+#include <functional>
 #include <optional>
 
 namespace pnr {
@@ -47,12 +49,52 @@ Shape parse_bicubic_patch(Parser& p);
 
 Texture parse_texture(Parser& p, const Texture& start);
 Pigment parse_pigment(Parser& p, const Pigment& start);
+void parse_pigment_item(Parser& p, Pigment& pigment); // one item of the block; at least one token is taken
 Finish parse_finish(Parser& p, const Finish& start);
 Interior parse_interior(Parser& p, const Interior& start);
 SaidMaterial parse_material(Parser& p);
 ColorMap parse_color_map(Parser& p);
+BlendMap<Pigment> parse_pigment_map(Parser& p);
 ImagePattern parse_image_map(Parser& p);
 bool skip_pattern(Parser& p); // one pattern or pattern modifier, where it picks from things that we lack
+
+// ---- patterns (parse_pattern.cpp), wherever they pick from: pigments, normals, textures, densities, functions
+
+// Reads what a list pattern picks from (colours, pigments, textures ...), where it stands: behind `checker` and the
+// like, inside the braces of `object { ... }`.
+using ListReader = std::function<void(const Pattern&)>;
+// A pattern's word with what belongs to it. False, and nothing taken, if none stands here.
+bool parse_pattern(Parser& p, Pattern& pattern, const ListReader& read_list);
+// A word that shapes the pattern: turbulence, warp, waves, frequency, words of single patterns. Likewise.
+bool parse_pattern_modifier(Parser& p, Pattern& pattern);
+bool parse_turbulence_word(Parser& p, Turbulence& turbulence); // octaves, omega, lambda
+void parse_warp(Parser& p, Pattern& pattern);                  // the block behind `warp`
+// The block of a map behind its word: a declared map, or `[position item] ...`, where `read` reads an item up to the
+// `]`. Sorted by position. DeclaredBlock has to name BlendMap<T>.
+template <class T, class F>
+BlendMap<T> parse_blend_map(Parser& p, std::string_view what, F read);
+
+template <class T, class F>
+BlendMap<T> parse_blend_map(Parser& p, std::string_view what, F read) {
+    BlendMap<T> map;
+    const Token opener = peek(p);
+    block(p, what, [&] {
+        if (const auto* declared = accept_declared<BlendMap<T>>(p)) {
+            map = *declared;
+            return;
+        }
+        expect(p, '[', "to start an entry, such as [0.5 ...]");
+        double position = 1; // `average` needs none
+        if (at_expression(p)) position = parse_float(p), accept_comma(p);
+        map.push_back({position, read()});
+        expect(p, ']', "to end the entry");
+        accept_comma(p);
+    });
+    if (map.empty()) fail(p, opener, std::string(what) + " needs at least one entry");
+    std::stable_sort(map.begin(), map.end(),
+                     [](const auto& a, const auto& b) { return a.position < b.position; });
+    return map;
+}
 
 // ---- lights, camera, painting, settings
 // -----------------------------------------------------------------------

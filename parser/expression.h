@@ -32,6 +32,8 @@ inline bool is_true(double value) { return std::abs(value) > 1e-10; }   // POV-R
 double scalar_of(Parser& p, const VectorValue& value, const Token& at); // error if it is a vector
 void promote(VectorValue& value, int size);
 
+int component_index(Keyword word); // of `.x`, `.red` ...; -1: no such component
+
 bool at_string(Parser& p);
 
 // `[i][j]` of an array, all taken, the innermost array and the element's number there. Error out of range.

@@ -10,6 +10,29 @@
 
 namespace pnr {
 
+int component_index(Keyword word) {
+    switch (word) {
+    case "x"_kw:
+    case "u"_kw:
+    case "red"_kw:
+        return 0;
+    case "y"_kw:
+    case "v"_kw:
+    case "green"_kw:
+        return 1;
+    case "z"_kw:
+    case "blue"_kw:
+        return 2;
+    case "t"_kw:
+    case "filter"_kw:
+        return 3;
+    case "transmit"_kw:
+        return 4;
+    default:
+        return -1;
+    }
+}
+
 namespace {
 
 [[noreturn]] void unknown_identifier(Parser& p, const Token& token) {
@@ -61,30 +84,6 @@ const Value* shown_value(Parser& p, const Token& token) {
     return element ? element : value;
 }
 
-// `.x`, `.red` ...: the component's index, or -1.
-int component_index(Keyword word) {
-    switch (word) {
-    case "x"_kw:
-    case "u"_kw:
-    case "red"_kw:
-        return 0;
-    case "y"_kw:
-    case "v"_kw:
-    case "green"_kw:
-        return 1;
-    case "z"_kw:
-    case "blue"_kw:
-        return 2;
-    case "t"_kw:
-    case "filter"_kw:
-        return 3;
-    case "transmit"_kw:
-        return 4;
-    default:
-        return -1;
-    }
-}
-
 VectorValue take_component(Parser& p, const VectorValue& value) {
     next(p); // the dot
     const Token name = next(p);
@@ -131,7 +130,7 @@ VectorValue parse_word(Parser& p) {
     if (lookup(p.in, token.symbol)) {
         const Value& value = take_variable(p);
         if (const auto* function = std::get_if<std::shared_ptr<const Function>>(&value.data))
-            return scalar(call_function(p, token, std::shared_ptr<const Function>(*function)));
+            return call_function(p, token, std::shared_ptr<const Function>(*function));
         return operand_from(p, value, token);
     }
     if (is_keyword(token.symbol)) {

@@ -91,11 +91,6 @@ Texture& own_texture(Parser& p, Object& object) {
     return *object.texture;
 }
 
-bool is_see_through(const Pigment& pigment) {
-    return std::ranges::any_of(
-        pigment.map, [](const ColorStop& stop) { return stop.color.filter + stop.color.transmit > 0; });
-}
-
 // A second texture lies on the first, as a layer: where it is opaque, it alone is seen.
 void add_texture(Parser& p, const Token& word, Object& object, bool layered) {
     const Texture texture = parse_texture(p, p.default_texture);

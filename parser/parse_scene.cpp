@@ -26,7 +26,7 @@ void start_povray(Parser& p) {
 }
 
 bool is_black(const Pigment& pigment) {
-    return std::holds_alternative<UniformPattern>(pigment.pattern) &&
+    return std::holds_alternative<UniformPattern>(pigment.pattern.kind) &&
            pnr::is_black(pigment.map.front().color.rgb) &&
            pigment.map.front().color.filter + pigment.map.front().color.transmit == 0;
 }
@@ -177,6 +177,9 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
     case "color_map"_kw:
         next(p);
         return parse_color_map(p);
+    case "pigment_map"_kw:
+        next(p);
+        return parse_pigment_map(p);
     case "light_source"_kw:
         next(p);
         return parse_light_source(p);
@@ -208,7 +211,6 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
     case "normal"_kw:
     case "media"_kw:
     case "density"_kw:
-    case "pigment_map"_kw:
     case "texture_map"_kw:
     case "normal_map"_kw:
     case "slope_map"_kw:

@@ -77,10 +77,7 @@ bool accept_transform(Parser& p, Transform& transform) {
     return true;
 }
 
-void apply_transform(const Transform& by, Pigment& pigment) {
-    if (!std::holds_alternative<UniformPattern>(pigment.pattern))
-        pigment.transform = then(pigment.transform, by);
-}
+void apply_transform(const Transform& by, Pigment& pigment) { transform_pigment(pigment, by); }
 
 void apply_transform(const Transform& by, Texture& texture) { apply_transform(by, texture.pigment); }
 

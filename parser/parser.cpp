@@ -247,7 +247,7 @@ const char* type_name(const Value& value) {
     }
     static constexpr const char* blocks[] = {
         "object", "texture",   "pigment",   "finish",     "interior", "light source",
-        "camera", "transform", "npr block", "colour map", "material", "sky sphere", "fog", "rainbow",
+        "camera", "transform", "npr block", "colour map", "pigment map", "material", "sky sphere", "fog", "rainbow",
         "block without meaning here"};
     static_assert(std::size(blocks) == std::variant_size_v<DeclaredBlock>);
     return blocks[std::get<std::shared_ptr<const DeclaredBlock>>(value.data)->index()];

@@ -56,7 +56,8 @@ struct Function; // function.h
 
 // Blocks that can be declared; copied on use, heavy data (meshes) is shared inside.
 using DeclaredBlock = std::variant<Object, Texture, Pigment, Finish, Interior, LightSource, Camera, Transform,
-                                   PaintWord, ColorMap, SaidMaterial, SkySphere, Fog, Rainbow, SkippedBlock>;
+                                   PaintWord, ColorMap, BlendMap<Pigment>, SaidMaterial, SkySphere, Fog, Rainbow,
+                                   SkippedBlock>;
 
 struct Value {
     std::variant<std::monostate, double, VectorValue, std::string, std::shared_ptr<ArrayValue>,
