@@ -125,8 +125,15 @@ Color fog_transmittance(const World& world, const Ray& ray, double distance) {
 Color through_atmosphere(const World& world, const Ray& ray, double distance, Color behind) {
     const Atmosphere& air = world.atmosphere;
     for (const Rainbow& rainbow : air.rainbows) behind = through_rainbow(rainbow, ray, distance, behind);
-    for (auto fog = air.fogs.rbegin(); fog != air.fogs.rend(); ++fog) // the first one said lies in front
-    return behind;
+    // Fogs dim what is behind them one after the other, but not each other.
+    Color added(0);
+    for (const Fog& fog : air.fogs) {
+        if (!(fog.distance > 0)) continue;
+        const float left = left_by_fog(world, fog, ray, distance);
+        behind *= left * fog_tint(fog);
+        added += (1 - left) * fog.color.rgb;
+    }
+    return behind + added;
 }
 
 } // namespace pnr
