@@ -227,7 +227,7 @@ Color gathered_radiance(const GatherScene& scene, Ray ray, Rng& rng, double& dis
     distance = infinity;
     for (int bounce = 0, scattered = 0; bounce < most_bounces; ++bounce) {
         const std::optional<Hit> hit = closest_hit(world, ray, RayKind::specular);
-        if (!hit) return found + throughput * world.background;
+        if (!hit) return found + throughput * sky_radiance(world, ray.direction);
         if (bounce == 0) distance = hit->t;
         if (world.surfaces[hit->surface].light >= 0) return found;
         const Vec3 outgoing = -ray.direction;

@@ -141,20 +141,32 @@ bool reflects(const TextureLayer& layer) {
     return max_component(r.max) > 0 || max_component(r.min) > 0;
 }
 
-bool is_specular(const Texture& texture) {
+bool reflects(const Texture& texture) {
     if (!is_plain(texture))
         return std::any_of(texture.textures.begin(), texture.textures.end(),
-                           [](const auto& entry) { return is_specular(entry.value); });
-    return std::any_of(texture.layers.begin(), texture.layers.end(), reflects) ||
-           std::all_of(texture.layers.begin(), texture.layers.end(),
+                           [](const auto& entry) { return reflects(entry.value); });
+    return std::any_of(texture.layers.begin(), texture.layers.end(),
+                       [](const TextureLayer& layer) { return reflects(layer); });
+}
+
+bool lets_light_through(const Texture& texture) {
+    if (!is_plain(texture))
+        return std::any_of(texture.textures.begin(), texture.textures.end(),
+                           [](const auto& entry) { return lets_light_through(entry.value); });
+    return std::all_of(texture.layers.begin(), texture.layers.end(),
                        [](const TextureLayer& layer) { return is_see_through(layer.pigment); });
 }
 
 } // namespace
 
 bool is_specular(const Material& material) {
-    return material.photons.specular_probability.value_or(0) > 0 || is_specular(material.texture) ||
-           (material.interior_texture && is_specular(*material.interior_texture));
+    return material.photons.specular_probability.value_or(0) > 0 || lets_light_through(material) ||
+           reflects(material.texture) || (material.interior_texture && reflects(*material.interior_texture));
+}
+
+bool lets_light_through(const Material& material) {
+    return lets_light_through(material.texture) ||
+           (material.interior_texture && lets_light_through(*material.interior_texture));
 }
 
 bool has_diffuse(const Bsdf& bsdf) { return !is_black(bsdf.diffuse) || !is_black(bsdf.glossy); }

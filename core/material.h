@@ -33,6 +33,7 @@ Bsdf make_bsdf(const World& world, const Hit& hit, Vec3 outgoing);
 
 // Whether light may leave the material by mirror, refraction or straight through, somewhere on it.
 bool is_specular(const Material& material);
+bool lets_light_through(const Material& material); // straight or refracted
 bool has_diffuse(const Bsdf& bsdf);  // a gather or a stored photon makes sense here
 bool has_specular(const Bsdf& bsdf); // mirror or refraction
 

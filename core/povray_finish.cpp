@@ -3,6 +3,9 @@
 // against POV-Ray's pictures.
 #include "core/povray_finish.h"
 
+#include "core/area_light.h"
+#include "core/probe.h"
+
 #include <algorithm>
 #include <array>
 
@@ -40,6 +43,7 @@ struct Segment {
     int level = 0;
     Color throughput{1};
     Solids solids;
+    int unhollow = 0; // solids without `hollow` about the ray: there is no fog in them
 };
 
 // A hit with all that POV-Ray's formulas ask of it.
@@ -80,10 +84,20 @@ Color passed_light(const Point& point) {
 
 // Share of a light that reaches the hit: what lies between tints it by its pigment, opaque things stop it.
 // With a caustic map the light through refracting photon targets comes from there.
-Color light_through(const Shading& shading, const Hit& from, const LightSample& sample) {
+Color light_through(const Shading& shading, const Hit& from, const Light& light, const LightSample& sample) {
     const World& world = shading.world;
     Color passed{1};
     Ray ray = connect(from, sample.point, sample.error);
+    if (light.window) { // what stands between the light and its window throws no shadow
+        const auto window = trace(*light.window, sample.point + light.offset, -sample.direction);
+        if (!window) return Color{0};
+        const double way = sample.distance - glm::distance(window->position, sample.point + light.offset);
+        if (way <= 0) return Color{0};
+        ray.t_max = std::min(ray.t_max, way);
+    }
+    if (is_occluded(world, ray, RayKind::blocker)) return Color{0};
+    if (light.said.media_attenuation) passed = fog_transmittance(world, ray, ray.t_max);
+    if (!world.tinted_shadows) return passed;
     const double whole = ray.t_max;
     double gone = 0;
     for (int surfaces = 0; surfaces < 4 * shading.settings.max_trace_level + 16; ++surfaces) {
@@ -106,6 +120,24 @@ Color light_through(const Shading& shading, const Hit& from, const LightSample& 
     return Color{0};
 }
 
+// The same from another point of the light.
+LightSample sample_toward(const Light& light, Vec3 position, Vec3 from) {
+    LightSample sample = sample_light(light, position, Vec2{0.5});
+    sample.point = from;
+    sample.distance = glm::length(from - position);
+    if (sample.distance > 0) sample.direction = (from - position) / sample.distance;
+    return sample;
+}
+
+// Share of a light's colour that reaches the hit, over all its area and through its window.
+Color light_share(const Shading& shading, const Hit& hit, const Light& light, const LightSample& sample,
+                  SampleState& state) {
+    if (!light.has_extent() || light.said.area->illuminates) return light_through(shading, hit, light, sample);
+    return area_mean(view_area(light, hit.position, state.rng.bits()), [&](Vec3 from) {
+        return light_through(shading, hit, light, sample_toward(light, hit.position, from));
+    });
+}
+
 // ---- surfaces
 
 // One texture's layers at a hit, and their share of what is seen there.
@@ -115,9 +147,8 @@ struct Look {
 };
 
 // Diffuse light, highlights and thin film of one light source on one layer.
-Color lit_by(const Shading& shading, const Look& look, const Light& light, Vec2 u, SampleState& state) {
-    const Hit& hit = look.point.hit;
-    const LightSample sample = sample_light(light, hit.position, u);
+Color lit_from(const Shading& shading, const Look& look, const Light& light, const LightSample& sample,
+               SampleState& state) {
     if (is_black(sample.irradiance)) return Color{0};
     const Finish& finish = look.layer.finish;
     LampView view;
@@ -131,12 +162,28 @@ Color lit_by(const Shading& shading, const Look& look, const Light& light, Vec2 
     const Color sum = lamp_light(finish, look.layer.color, look.layer.opacity, view, shading.world.irid_wavelength) *
                       sample.irradiance / static_cast<float>(pi);
     if (is_black(sum) || light.said.shadowless) return sum;
-    return sum * light_through(shading, hit, sample);
+    return sum * light_share(shading, look.point.hit, light, sample, state);
 }
 
+Color lit_by(const Shading& shading, const Look& look, const Light& light, SampleState& state) {
+    const Vec3 position = look.point.hit.position;
+    if (!light.said.area || !light.said.area->illuminates || !light.has_extent())
+        return lit_from(shading, look, light, sample_light(light, position, Vec2{0.5}), state);
+    return area_mean(view_area(light, position, state.rng.bits()), [&](Vec3 from) {
+        return lit_from(shading, look, light, sample_toward(light, position, from), state);
+    });
+}
+
+// Which solids the ray of the next segment is in.
+struct Within {
+    Solids solids;
+    int unhollow = 0;
+};
+
 Color follow(const Shading& shading, const Segment& segment, const Hit& hit, Vec3 direction, Color weight,
-             const Solids& solids, SampleState& state) {
-    const Segment next{leave(hit, direction), RayKind::specular, segment.level + 1, segment.throughput * weight, solids};
+             const Within& within, SampleState& state) {
+    const Segment next{leave(hit, direction), RayKind::specular, segment.level + 1, segment.throughput * weight,
+                       within.solids, within.unhollow};
     if (next.level > shading.settings.max_trace_level) return Color{0};
     if (max_component(next.throughput) < shading.settings.adc_bailout) return Color{0};
     return weight * trace(shading, next, state);
@@ -166,7 +213,7 @@ Color mirror_share(const Look& look) {
 Color reflected_light(const Shading& shading, const Segment& segment, const Look& look, Color share, SampleState& state) {
     if (is_black(share)) return Color{0};
     const Vec3 direction = mirror_direction(look.point.outgoing, look.layer.normal);
-    const Color found = follow(shading, segment, look.point.hit, direction, share, segment.solids, state);
+    const Color found = follow(shading, segment, look.point.hit, direction, share, {segment.solids, segment.unhollow}, state);
     const double exponent = look.layer.finish.reflection.exponent;
     if (exponent == 1) return found;
     const Color seen = found / glm::max(share, Color{1e-12f});
@@ -189,12 +236,16 @@ Color transmitted_light(const Shading& shading, const Segment& segment, const Po
                         bool& total, SampleState& state) {
     if (is_black(share)) return Color{0};
     Vec3 direction = -point.outgoing;
-    Solids solids = segment.solids;
-    const double eta = pass_surface(point, solids);
+    Within within{segment.solids, segment.unhollow};
+    const double eta = pass_surface(point, within.solids);
     total = std::abs(eta - 1) > 1e-6 && !refract_direction(point.outgoing, normal, eta, direction);
-    if (!total) return follow(shading, segment, point.hit, direction, share, solids, state);
+    if (!total) {
+        const Surface& surface = shading.world.surfaces[point.hit.surface];
+        if (!surface.hollow && surface.closed) within.unhollow = std::max(0, within.unhollow + (point.inside ? -1 : 1));
+        return follow(shading, segment, point.hit, direction, share, within, state);
+    }
     direction = mirror_direction(point.outgoing, normal);
-    return follow(shading, segment, point.hit, direction, Color{1}, segment.solids, state);
+    return follow(shading, segment, point.hit, direction, Color{1}, {segment.solids, segment.unhollow}, state);
 }
 
 struct LightParts {
@@ -215,7 +266,8 @@ LightParts layered_light(const Shading& shading, const Segment& segment, const P
         const Look look{point, layer};
         if (!normal) normal = layer.normal;
         Color lit{0};
-        for (const Light& light : world.lights) lit += lit_by(shading, look, light, Vec2{0.5}, state);
+        for (const Light& light : world.lights)
+            if (shines_on(light, world.surfaces[point.hit.surface])) lit += lit_by(shading, look, light, state);
         parts.direct += layer.above * lit;
         parts.caustic += layer.above * caustic_light(shading, look, state);
         parts.glow += layer.above * layer.color * layer.opacity *
@@ -252,7 +304,10 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
     ++state.rays;
     const World& world = shading.world;
     const std::optional<Hit> hit = closest_hit(world, segment.ray, segment.kind);
-    if (!hit) return world.background;
+    if (!hit)
+        return segment.unhollow > 0 ? sky_radiance(world, segment.ray.direction)
+                                  : through_atmosphere(world, segment.ray, infinity,
+                                                       sky_radiance(world, segment.ray.direction));
     const int emitter = world.surfaces[hit->surface].light;
     const Point point = make_point(world, *hit, segment.ray.direction);
     if (emitter >= 0)
@@ -264,8 +319,9 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
         state.specular += parts.specular;
     }
     const bool medium = segment.level > 0 && point.inside;
-    return sum_of(parts) *
-           (medium ? interior_transmittance(point.material.interior, hit->t) : Color{1});
+    const Color seen =
+        sum_of(parts) * (medium ? interior_transmittance(point.material.interior, hit->t) : Color{1});
+    return segment.unhollow > 0 ? seen : through_atmosphere(world, segment.ray, hit->t, seen);
 }
 
 } // namespace
@@ -273,6 +329,7 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
 Color povray_radiance(const Shading& shading, const Ray& camera_ray, SampleState& state) {
     Segment segment;
     segment.ray = camera_ray;
+    segment.unhollow = shading.world.camera_solids;
     return glm::max(trace(shading, segment, state), Color{0}); // crand and dark lights may take more than there is
 }
 

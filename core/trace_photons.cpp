@@ -219,6 +219,7 @@ struct Tracer {
                 return false;
         }
         if (!(largest(flight.flux) > 0)) return false;
+        if (flight.bounces == 0 && !shines_on(light, surface)) return false;
         if (plan.targeted && flight.bounces == 0 && !material.photons.target) return false;
         if (diffuse && material.photons.collect) store(*hit, bsdf, surface, flight);
         return scatter(*hit, bsdf, material, outgoing, flight, numbers);

@@ -179,6 +179,13 @@ const void* field_key(const Shape& shape) {
     return nullptr;
 }
 
+// Who passes its surface goes in or out of something.
+bool bounds_a_solid(const Shape& shape) {
+    return !std::holds_alternative<Disc>(shape) && !std::holds_alternative<Mesh>(shape) &&
+           !std::holds_alternative<BicubicPatch>(shape) && !std::holds_alternative<Polygon>(shape) &&
+           !std::holds_alternative<Parametric>(shape);
+}
+
 const char* group_name(Combination combination) {
     switch (combination) {
     case Combination::merge:
@@ -202,6 +209,8 @@ struct Inherited {
     std::vector<std::uint32_t> clips; // nodes of the solids that clip it
     Bounds limits{Vec3(-infinity), Vec3(infinity)}; // bounded_by
     int object = 0;
+    int light_group = 0;
+    bool global_lights = true, hollow = false;
     bool cutaway = false;
     bool unseen = false; // clips: they have no surface
     bool double_illuminate = false;
@@ -250,10 +259,14 @@ struct Builder {
             picture->image = assets.image(*picture, scene.assumed_gamma);
     }
 
-    void add_item(GeometryItem item, Surface surface) {
+    // `bare`: it may show another's texture.
+    void add_item(GeometryItem item, Surface surface, bool bare) {
         if (surface.no_image) item.hidden_from |= ray_bit(RayKind::camera);
         if (surface.no_reflection) item.hidden_from |= ray_bit(RayKind::specular);
         if (surface.no_shadow) item.hidden_from |= ray_bit(RayKind::shadow);
+        const bool clear = surface.light < 0 && lets_light_through(world.materials[static_cast<std::size_t>(surface.material)]);
+        if (surface.no_shadow || clear || bare) item.hidden_from |= ray_bit(RayKind::blocker);
+        world.tinted_shadows |= !surface.no_shadow && (clear || bare);
         items.push_back(std::move(item));
         world.surfaces.push_back(surface);
     }
@@ -272,6 +285,8 @@ struct Builder {
         from.no_reflection |= object.no_reflection;
         from.double_illuminate |= object.double_illuminate;
         from.cutaway |= object.cutaway_textures;
+        from.hollow |= object.hollow;
+        if (object.light_group > 0) from.light_group = object.light_group, from.global_lights = object.global_lights;
         for (const Object& bound : object.bounds) from.limits = common(from.limits, object_bounds(bound));
         return from;
     }
@@ -375,9 +390,13 @@ struct Builder {
         surface.no_shadow = from.no_shadow;
         surface.no_image = from.no_image;
         surface.no_reflection = from.no_reflection;
+        surface.light_group = from.light_group;
+        surface.global_lights = from.global_lights;
+        surface.hollow = from.hollow;
+        surface.closed = bounds_a_solid(*object.shape);
         if (const PartTextures* textures = part_textures(item); textures && !from.unseen)
             item.first_part = add_parts(*textures, from, object.transform, surface);
-        add_item(std::move(item), surface);
+        add_item(std::move(item), surface, from.cutaway && !from.texture);
         return static_cast<std::uint32_t>(items.size()) - 1;
     }
 
@@ -429,7 +448,7 @@ struct Builder {
         Surface surface;
         surface.light = index;
         surface.no_image = light.no_image;
-        add_item(std::move(item), surface);
+        add_item(std::move(item), surface, false);
     }
 
     Bounds bounded() const;
@@ -467,11 +486,17 @@ void Builder::move_to_center() {
         for (Seed& seed : object.paint.seeds) seed.position -= world.offset;
     }
     world.camera = scene.camera;
-    world.camera.location -= world.offset;
+    world.camera.mesh_offset = -world.offset;
+    if (!world.camera.mesh) world.camera.location -= world.offset;
+    world.atmosphere = scene.atmosphere;
+    for (Fog& fog : world.atmosphere.fogs) fog.offset -= glm::dot(world.offset, fog.up);
     for (LightSource light : scene.lights) {
         light.position -= world.offset;
         light.point_at -= world.offset;
         world.lights.push_back(make_light(light));
+        Light& made = world.lights.back();
+        made.offset = world.offset;
+        if (!light.projected_through.empty()) made.window = make_probe(light.projected_through.front());
     }
 }
 
@@ -485,9 +510,26 @@ void Builder::find_object_bounds(const std::vector<Bounds>& boxes) {
 Illumination choose_illumination(const Scene& scene, const World& world, const PhotonSettings& photons) {
     const bool emitters = std::any_of(scene.lights.begin(), scene.lights.end(),
                                       [](const LightSource& light) { return light.emitter.has_value(); });
-    if (emitters || world.has_paint || scene.radiosity || photons.global.value_or(false))
+    if (emitters || world.has_paint || (scene.radiosity && !scene.povray) || photons.global.value_or(false))
         return Illumination::photon_mapped;
+    if (scene.radiosity) return Illumination::radiosity;
     return photons.wanted ? Illumination::caustics : Illumination::raytraced;
+}
+
+// How many solids without `hollow` hold a point.
+int solids_about(const std::vector<Object>& objects, Vec3 point, bool hollow) {
+    int count = 0;
+    for (const Object& object : objects) {
+        if (hollow || object.hollow) continue;
+        if (is_plain_union(object)) {
+            count += solids_about(object.children, point, false);
+            continue;
+        }
+        const Bounds box = object_bounds(object);
+        const bool near = glm::all(glm::lessThanEqual(box.low, point)) && glm::all(glm::lessThanEqual(point, box.high));
+        if ((near || object.inverse) && is_inside(*make_probe(object), point)) ++count;
+    }
+    return count;
 }
 
 void check_lights_and_camera(const Scene& scene) {
@@ -513,7 +555,7 @@ World build_world(const Scene& scene, const Settings& settings) {
     builder.append_parts();
     builder.move_to_center();
     builder.find_object_bounds(seen_bounds(builder.items, builder.solids));
-    world.background = scene.background;
+    if (!scene.atmosphere.fogs.empty()) world.camera_solids = solids_about(scene.objects, scene.camera.location, false);
     world.ambient_light = scene.ambient_light;
     world.irid_wavelength = scene.irid_wavelength;
     world.has_paint =

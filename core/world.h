@@ -49,6 +49,9 @@ struct Surface {
     int object = 0;
     int material = 0;
     int light = -1;    // >= 0: this is the emitter of that light
+    int light_group = 0; // see Object
+    bool global_lights = true, hollow = false;
+    bool closed = true;  // it bounds a solid: who passes it goes in or out
     bool no_shadow = false, no_image = false, no_reflection = false;
 };
 
@@ -60,12 +63,14 @@ struct World {
     std::vector<Material> materials;
     std::vector<Surface> surfaces;
     std::vector<Light> lights; // world space; emitters have their radiance resolved
-    Color background{0};
+    Atmosphere atmosphere; // world space
+    int camera_solids = 0; // solids without `hollow` about the camera: fog is not seen in them
     Color ambient_light{1};
     Color irid_wavelength{0.70f, 0.52f, 0.48f};
     Illumination illumination = Illumination::raytraced;
     bool has_specular = false; // some surface reflects or refracts
     bool has_paint = false;    // some object is painted
+    bool tinted_shadows = false; // some surface that throws a shadow lets light through
     std::shared_ptr<const Geometry> geometry;
     std::vector<std::string> notes; // what was done to meshes and the like, for stats and the terminal
 };
@@ -74,10 +79,16 @@ struct World {
 // broken mesh, a non-finite coordinate) and FileError for files that cannot be opened.
 World build_world(const Scene& scene, const Settings& settings);
 
+// Whether the light shines on the surface: light_group.
+inline bool shines_on(const Light& light, const Surface& surface) {
+    return light.said.group == 0 ? surface.global_lights : light.said.group == surface.light_group;
+}
+
 // ---- rays -----------------------------------------------------------------------------------------------------
 
 // Which flags hide a surface from a ray.
-enum class RayKind { camera, specular, shadow, photon };
+// blocker: shadow rays as far as surfaces stop them that let no light through.
+enum class RayKind { camera, specular, shadow, photon, blocker };
 
 struct Hit {
     double t = infinity;   // in units of the ray's direction

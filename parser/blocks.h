@@ -127,6 +127,15 @@ BlendMap<T> parse_blend_map(Parser& p, std::string_view what, F read) {
 
 LightSource parse_light_source(Parser& p);
 Camera parse_camera(Parser& p);
+// POV-Ray's area_light and projected_through, and what else a light says that changes only shadows and photons. False if
+// no such word stands here.
+bool parse_light_shadow(Parser& p, LightSource& light);
+ColorFT parse_background(Parser& p);
+SkySphere parse_sky_sphere(Parser& p);
+Fog parse_fog(Parser& p);
+Rainbow parse_rainbow(Parser& p);
+// `radiosity { ... }` of global_settings; parse_radiosity.cpp.
+void parse_radiosity(Parser& p);
 PhotonRoles parse_object_photons(Parser& p);
 // Behind `npr`: nothing, `on`, `off` or a block; changes `word`.
 void parse_npr(Parser& p, PaintWord& word);

@@ -382,10 +382,7 @@ std::optional<Object> parse_object(Parser& p) {
         object = parse_group(p, next(p));
     else if (accept(p, "object"_kw))
         object = parse_object_reference(p);
-    else if (is_unsupported_object(word)) {
-        warn_unsupported(p, next(p), token_text(p, word, false), "such objects are left out");
-        skip_block(p, token_text(p, word, false));
-    } else
+    else
         return std::nullopt;
     object.said_at = source_ref(p, word);
     charge(p, word, sizeof(Object));

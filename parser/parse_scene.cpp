@@ -73,10 +73,6 @@ void add_light(Parser& p, const Token& word, LightSource light) {
     for (const Object& object : looks_like) add_object(p, word, object);
 }
 
-void parse_background(Parser& p) {
-    block(p, "background", [&] { p.scene.background = parse_color(p).rgb; });
-}
-
 void parse_camera_item(Parser& p) {
     p.scene.camera = parse_camera(p);
     p.scene.has_camera = true;
@@ -84,9 +80,6 @@ void parse_camera_item(Parser& p) {
 
 bool is_unsupported_item(const Token& word) {
     switch (keyword_of(word)) {
-    case "sky_sphere"_kw:
-    case "fog"_kw:
-    case "rainbow"_kw:
     case "media"_kw:
         return true;
     default:
@@ -94,12 +87,27 @@ bool is_unsupported_item(const Token& word) {
     }
 }
 
+bool parse_atmosphere_item(Parser& p) {
+    Atmosphere& air = p.scene.atmosphere;
+    if (accept(p, "background"_kw))
+        air.background = parse_background(p);
+    else if (accept(p, "sky_sphere"_kw))
+        air.sky = parse_sky_sphere(p);
+    else if (accept(p, "fog"_kw))
+        air.fogs.push_back(parse_fog(p));
+    else if (accept(p, "rainbow"_kw))
+        air.rainbows.push_back(parse_rainbow(p));
+    else
+        return false;
+    return true;
+}
+
 void parse_scene_item(Parser& p) {
     const Token word = peek(p);
     if (auto object = parse_object(p)) return add_object(p, word, std::move(*object));
     if (accept(p, "light_source"_kw)) return add_light(p, word, parse_light_source(p));
     if (accept(p, "camera"_kw)) return parse_camera_item(p);
-    if (accept(p, "background"_kw)) return parse_background(p);
+    if (parse_atmosphere_item(p)) return;
     if (accept(p, "global_settings"_kw)) return parse_global_settings(p);
     if (accept(p, "default"_kw)) { // POV-Ray takes #default without its mark as well
         open_block(p, "default");
@@ -192,6 +200,15 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
     case "camera"_kw:
         next(p);
         return parse_camera(p);
+    case "sky_sphere"_kw:
+        next(p);
+        return parse_sky_sphere(p);
+    case "fog"_kw:
+        next(p);
+        return parse_fog(p);
+    case "rainbow"_kw:
+        next(p);
+        return parse_rainbow(p);
     case "transform"_kw:
         next(p);
         return parse_transform(p);
@@ -207,9 +224,6 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
     switch (keyword_of(word)) {
     case "media"_kw:
     case "density"_kw:
-    case "fog"_kw:
-    case "rainbow"_kw:
-    case "sky_sphere"_kw:
     case "density_map"_kw:
     case "warp"_kw:
         warn_unsupported(p, next(p), token_text(p, word, false), "it is left out");

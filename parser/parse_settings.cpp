@@ -84,6 +84,7 @@ void parse_assumed_gamma(Parser& p) {
         p.scene.assumed_gamma = 0;
     else
         p.scene.assumed_gamma = parse_float_in(p, 1e-3, 1e3, "`assumed_gamma`");
+    p.settings.render.grid.value_gamma = p.scene.assumed_gamma;
 }
 
 void parse_view(Parser& p) {
@@ -155,9 +156,8 @@ void parse_setting(Parser& p) {
     case "view"_kw:
         next(p), parse_view(p);
         return;
-    case "radiosity"_kw: // its numbers tune POV-Ray's method; ours needs none of them
-        next(p), skip_block(p, "radiosity");
-        p.scene.radiosity = true;
+    case "radiosity"_kw:
+        next(p), parse_radiosity(p);
         return;
     default:
         break;

@@ -62,7 +62,8 @@ struct Spline;   // spline.h
 // Blocks that can be declared; copied on use, heavy data (meshes) is shared inside.
 using DeclaredBlock = std::variant<Object, Texture, Pigment, Finish, Interior, LightSource, Camera, Transform,
                                    PaintWord, ColorMap, BlendMap<Pigment>, Normal, SlopeMap,
-                                   BlendMap<Normal>, BlendMap<Texture>, SaidMaterial, SkippedBlock>;
+                                   BlendMap<Normal>, BlendMap<Texture>, SaidMaterial, SkySphere, Fog, Rainbow,
+                                   SkippedBlock>;
 
 struct Value {
     std::variant<std::monostate, double, VectorValue, std::string, std::shared_ptr<ArrayValue>,
