@@ -62,7 +62,7 @@ Interior parse_interior(Parser& p, const Interior& start);
 SaidMaterial parse_material(Parser& p);
 ColorMap parse_color_map(Parser& p);
 BlendMap<Pigment> parse_pigment_map(Parser& p);
-ImagePattern parse_image_map(Parser& p);
+ImagePattern parse_image_map(Parser& p, double* bump_size = nullptr); // `bump_size` may stand there if not null
 bool skip_pattern(Parser& p); // one pattern or pattern modifier, where it picks from things that we lack
 
 // ---- patterns (parse_pattern.cpp), wherever they pick from: pigments, normals, textures, densities, functions

@@ -26,8 +26,11 @@ void parse_normal_list(Parser& p, Normal& normal) {
 
 // The picture, and what else stands in its block.
 void parse_bump_map(Parser& p, Normal& normal) {
-    ImagePattern image = parse_image_map(p);
-    normal.pattern.kind = std::move(image);
+    ImagePattern image = parse_image_map(p, &normal.size);
+    image.as_stored = true;
+    set_kind(normal.pattern, image);
+    normal.picture.emplace();
+    set_kind(normal.picture->pattern, std::move(image));
 }
 
 std::vector<SlopeStop> parse_slope_stops(Parser& p) {
