@@ -135,8 +135,8 @@ Color lit_by(const Shading& shading, const Look& look, const Light& light, Vec2 
 }
 
 Color follow(const Shading& shading, const Segment& segment, const Hit& hit, Vec3 direction, Color weight,
-             const Solids& solids, SampleState& state) {
-    const Segment next{leave(hit, direction), RayKind::specular, segment.level + 1, segment.throughput * weight, solids};
+             RayKind kind, const Solids& solids, SampleState& state) {
+    const Segment next{leave(hit, direction), kind, segment.level + 1, segment.throughput * weight, solids};
     if (next.level > shading.settings.max_trace_level) return Color{0};
     if (max_component(next.throughput) < shading.settings.adc_bailout) return Color{0};
     return weight * trace(shading, next, state);
@@ -163,10 +163,19 @@ Color mirror_share(const Look& look) {
     return reflectance(said, look.layer.color, cosine, fresnel);
 }
 
+// Where a mirror with this normal sends the ray. One that looks away from the viewer counts as if it were not bumped, and a ray
+// that would go below the surface is turned back up.
+Vec3 bounce(const Point& point, Vec3 normal) {
+    const Vec3 raw = point.at.normal;
+    Vec3 direction = mirror_direction(point.outgoing, glm::dot(normal, point.outgoing) < 0 ? raw : normal);
+    if (const double below = glm::dot(direction, raw); below < 0) direction = glm::normalize(direction - 2 * below * raw);
+    return direction;
+}
+
 Color reflected_light(const Shading& shading, const Segment& segment, const Look& look, Color share, SampleState& state) {
     if (is_black(share)) return Color{0};
-    const Vec3 direction = mirror_direction(look.point.outgoing, look.layer.normal);
-    const Color found = follow(shading, segment, look.point.hit, direction, share, segment.solids, state);
+    const Color found = follow(shading, segment, look.point.hit, bounce(look.point, look.layer.normal), share,
+                               RayKind::specular, segment.solids, state);
     const double exponent = look.layer.finish.reflection.exponent;
     if (exponent == 1) return found;
     const Color seen = found / glm::max(share, Color{1e-12f});
@@ -191,10 +200,11 @@ Color transmitted_light(const Shading& shading, const Segment& segment, const Po
     Vec3 direction = -point.outgoing;
     Solids solids = segment.solids;
     const double eta = pass_surface(point, solids);
-    total = std::abs(eta - 1) > 1e-6 && !refract_direction(point.outgoing, normal, eta, direction);
-    if (!total) return follow(shading, segment, point.hit, direction, share, solids, state);
-    direction = mirror_direction(point.outgoing, normal);
-    return follow(shading, segment, point.hit, direction, Color{1}, segment.solids, state);
+    const Vec3 facing = glm::dot(normal, point.outgoing) < 0 ? -normal : normal;
+    total = std::abs(eta - 1) > 1e-6 && !refract_direction(point.outgoing, facing, eta, direction);
+    // What `no_image` and `no_reflection` hide is hidden behind glass as it is before it.
+    if (!total) return follow(shading, segment, point.hit, direction, share, segment.kind, solids, state);
+    return follow(shading, segment, point.hit, bounce(point, normal), Color{1}, RayKind::specular, segment.solids, state);
 }
 
 struct LightParts {
