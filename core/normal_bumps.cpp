@@ -3,6 +3,7 @@
 #include "core/normal_bumps.h"
 
 #include "core/noise.h"
+#include "core/pattern_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,20 @@ Vec3 wrinkles(const Vec3& p) {
     Vec3 sum(0);
     double scale = 1;
     for (int octave = 0; octave < 10; ++octave, scale *= 2) sum += glm::abs(noise_vector(p * scale)) / scale;
+    return sum;
+}
+
+// Rings about each of the sources. Those of `waves` have frequencies of their own, and the slower are the higher.
+Vec3 rings(const Pattern& pattern, Vec3 p, bool waves) {
+    Vec3 sum(0);
+    for (int i = 0; i < pattern.number_of_waves; ++i) {
+        const WaveSource& source = wave_sources()[static_cast<std::size_t>(i)];
+        const double frequency = waves ? source.frequency : 1;
+        const Vec3 way = p - source.center;
+        const double length = glm::length(way);
+        if (!(length > 0)) continue;
+        sum += way * (cycloid(length * pattern.frequency * frequency + pattern.phase) / (frequency * length));
+    }
     return sum;
 }
 
@@ -80,6 +95,8 @@ bool has_bump_vector(const Normal& normal) {
     case PlainKind::bumps:
     case PlainKind::dents:
     case PlainKind::wrinkles:
+    case PlainKind::ripples:
+    case PlainKind::waves:
         return true;
     default:
         return false;
@@ -96,6 +113,10 @@ Vec3 bumped(const Normal& normal, const SurfacePoint& here, Vec3 n) {
         return n + normal.size * dents(here.point, normal.pattern.noise_generator);
     case PlainKind::wrinkles:
         return n + normal.size * wrinkles(here.point);
+    case PlainKind::ripples:
+        return n + normal.size * rings(normal.pattern, here.point, false);
+    case PlainKind::waves:
+        return n + normal.size * rings(normal.pattern, here.point, true);
     default:
         return n + normal.size * bumps(here.point);
     }

@@ -219,6 +219,8 @@ struct Builder {
     }
 
     void prepare_pattern(Pattern& pattern) {
+        if (pattern.noise_generator == 0) pattern.noise_generator = scene.noise_generator;
+        if (pattern.number_of_waves == 0) pattern.number_of_waves = scene.number_of_waves;
         if (auto* picture = std::get_if<ImagePattern>(&pattern.kind))
             picture->image = assets.image(*picture, scene.assumed_gamma);
     }
