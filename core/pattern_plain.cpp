@@ -9,12 +9,6 @@ namespace {
 // The sources of ripples and waves: source i lies on the unit sphere, towards the noise vector at (i, 0, 0).
 // The frequencies' generator is the lattice's, in a state found from the spectrum of POV-Ray's waves about
 // the origin.
-struct WaveSource {
-    Vec3 center;
-    double frequency = 1;
-};
-constexpr int most_wave_sources = 64; // parse_settings.cpp takes no more
-
 std::vector<WaveSource> make_wave_sources() {
     std::vector<WaveSource> sources;
     std::uint32_t state = 1586631681;

@@ -20,12 +20,12 @@ inline double triangle_wave(double value) {
     return f >= 0.5 ? 2 * (1 - f) : 2 * f;
 }
 
-// The sources of ripples and waves: points near the unit sphere, each with a frequency.
+// The sources of ripples and waves: points on the unit sphere, each with a frequency.
 struct WaveSource {
     Vec3 center;
     double frequency = 1;
 };
-inline constexpr int most_wave_sources = 64;
+inline constexpr int most_wave_sources = 64; // parse_settings.cpp takes no more
 const std::vector<WaveSource>& wave_sources();
 
 // pattern_plain.cpp
