@@ -66,9 +66,9 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state);
 // What goes through all layers that a shadow ray meets at a point, with POV-Ray's faked caustics.
 Color passed_light(const Point& point) {
     Color sum(0);
-    for_each_texture(point.texture, point.at, [&](std::span<const TextureLayer> layers, const SurfacePoint& at, double share) {
+    for_each_texture(point.texture, point.at, [&](const Texture& plain, const SurfacePoint& at, double share) {
         std::optional<Vec3> normal;
-        Color passed = for_each_layer(layers, at, [&](const LayerPoint& layer) {
+        Color passed = for_each_layer(plain, at, [&](const LayerPoint& layer) {
             if (!normal) normal = layer.normal;
         });
         if (const double power = point.material.interior.caustics; power > 0)
@@ -215,13 +215,13 @@ Color sum_of(const LightParts& parts) { return parts.direct + parts.caustic + pa
 
 // Light of a plain texture. What upper layers let pass tints everything below them but reflections.
 LightParts layered_light(const Shading& shading, const Segment& segment, const Point& point,
-                         std::span<const TextureLayer> layers, const SurfacePoint& at, SampleState& state) {
+                         const Texture& plain, const SurfacePoint& at, SampleState& state) {
     const World& world = shading.world;
     LightParts parts;
     Color kept{1};
     bool mirrors = false, total = false;
     std::optional<Vec3> normal; // of the uppermost layer
-    const Color passed = for_each_layer(layers, at, [&](const LayerPoint& layer) {
+    const Color passed = for_each_layer(plain, at, [&](const LayerPoint& layer) {
         const Look look{point, layer};
         if (!normal) normal = layer.normal;
         Color lit{0};
@@ -236,7 +236,7 @@ LightParts layered_light(const Shading& shading, const Segment& segment, const P
     });
     if (normal) parts.specular = transmitted_light(shading, segment, point, *normal, passed * kept, total, state);
     if (mirrors && !total)
-        for_each_layer(layers, at, [&](const LayerPoint& layer) {
+        for_each_layer(plain, at, [&](const LayerPoint& layer) {
             const Look look{point, layer};
             parts.specular += reflected_light(shading, segment, look, mirror_share(look), state);
         });
@@ -245,13 +245,13 @@ LightParts layered_light(const Shading& shading, const Segment& segment, const P
 
 LightParts surface_light(const Shading& shading, const Segment& segment, const Point& point, SampleState& state) {
     if (is_plain(point.texture))
-        return layered_light(shading, segment, point, point.texture.layers, point.at, state);
+        return layered_light(shading, segment, point, point.texture, point.at, state);
     LightParts sum;
-    for_each_texture(point.texture, point.at, [&](std::span<const TextureLayer> layers, const SurfacePoint& at, double share) {
+    for_each_texture(point.texture, point.at, [&](const Texture& plain, const SurfacePoint& at, double share) {
         const auto weight = static_cast<float>(share);
         Segment part = segment;
         part.throughput *= weight;
-        const LightParts parts = layered_light(shading, part, point, layers, at, state);
+        const LightParts parts = layered_light(shading, part, point, plain, at, state);
         sum.direct += weight * parts.direct, sum.caustic += weight * parts.caustic;
         sum.glow += weight * parts.glow, sum.specular += weight * parts.specular;
     });
