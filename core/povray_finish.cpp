@@ -3,6 +3,8 @@
 // against POV-Ray's pictures.
 #include "core/povray_finish.h"
 
+#include "core/noise.h"
+
 #include <algorithm>
 #include <array>
 
@@ -108,10 +110,31 @@ Color light_through(const Shading& shading, const Hit& from, const LightSample& 
 
 // ---- surfaces
 
-// One texture's layers at a hit, and their share of what is seen there.
+// How light bends where the ray goes through a surface, and which solids it is in then.
+struct Crossing {
+    double eta = 1; // ior of the viewer's side over that of the other one
+    Solids solids;
+};
+
+Crossing cross(const Point& point, const Solids& before) {
+    Crossing crossing{1, before};
+    const Material& material = point.material;
+    if (material.interior_id == 0) return crossing;
+    const double ior = material.interior.ior;
+    if (crossing.solids.leave(material.interior_id) || point.inside) {
+        crossing.eta = ior / crossing.solids.ior();
+    } else {
+        crossing.eta = before.ior() / ior;
+        crossing.solids.enter({material.interior_id, ior});
+    }
+    return crossing;
+}
+
+// One of the layers at a hit.
 struct Look {
     const Point& point;
     const LayerPoint& layer;
+    double eta; // ior of the viewer's side over that of the other one
 };
 
 // Diffuse light, highlights and thin film of one light source on one layer.
@@ -127,9 +150,19 @@ Color lit_by(const Shading& shading, const Look& look, const Light& light, Vec2 
     view.both_sides = look.point.material.double_illuminate;
     view.highlights = !light.said.shadowless;
     if (finish.crand > 0) view.grain = state.rng.uniform();
+    const auto lit = [&](const Finish& f) {
+        return lamp_light(f, look.layer.color, look.layer.opacity, view, shading.world.irid_wavelength);
+    };
+    Color sum;
+    if (finish.irid.turbulence != 0) {
+        Finish here = finish;
+        here.irid.thickness *= film_thickness(finish.irid, hit.position + shading.world.offset);
+        sum = lit(here);
+    } else {
+        sum = lit(finish);
+    }
     // A light of colour c gives the irradiance pi c cos: POV-Ray's diffuse is albedo c cos.
-    const Color sum = lamp_light(finish, look.layer.color, look.layer.opacity, view, shading.world.irid_wavelength) *
-                      sample.irradiance / static_cast<float>(pi);
+    sum *= sample.irradiance / static_cast<float>(pi);
     if (is_black(sum) || light.said.shadowless) return sum;
     return sum * light_through(shading, hit, sample);
 }
@@ -157,9 +190,8 @@ Color caustic_light(const Shading& shading, const Look& look, SampleState& state
 // How much of the reflected ray is seen at this angle.
 Color mirror_share(const Look& look) {
     const double cosine = std::clamp(glm::dot(look.point.outgoing, look.layer.normal), 0.0, 1.0);
-    const double ior = look.point.material.interior.ior;
     const Reflection& said = look.layer.finish.reflection;
-    const double fresnel = said.fresnel ? fresnel_dielectric(std::max(cosine, 1e-9), look.point.inside ? ior : 1 / ior) : 0;
+    const double fresnel = said.fresnel ? fresnel_dielectric(std::max(cosine, 1e-9), look.eta) : 0;
     return reflectance(said, look.layer.color, cosine, fresnel);
 }
 
@@ -182,28 +214,15 @@ Color reflected_light(const Shading& shading, const Segment& segment, const Look
     return share * glm::pow(glm::max(seen, Color{0}), Color{static_cast<float>(1 / exponent)});
 }
 
-// How light bends where the ray goes through a surface, and which solids it is in then.
-double pass_surface(const Point& point, Solids& solids) {
-    const Material& material = point.material;
-    if (material.interior_id == 0) return 1;
-    const double ior = material.interior.ior;
-    if (solids.leave(material.interior_id) || point.inside) return ior / solids.ior();
-    const double outside = solids.ior();
-    solids.enter({material.interior_id, ior});
-    return outside / ior;
-}
-
 // Total reflection is not tinted, and stands in place of the finish's own: `total` tells of it.
-Color transmitted_light(const Shading& shading, const Segment& segment, const Point& point, Vec3 normal, Color share,
-                        bool& total, SampleState& state) {
+Color transmitted_light(const Shading& shading, const Segment& segment, const Point& point, const Crossing& crossing,
+                        Vec3 normal, Color share, bool& total, SampleState& state) {
     if (is_black(share)) return Color{0};
     Vec3 direction = -point.outgoing;
-    Solids solids = segment.solids;
-    const double eta = pass_surface(point, solids);
     const Vec3 facing = glm::dot(normal, point.outgoing) < 0 ? -normal : normal;
-    total = std::abs(eta - 1) > 1e-6 && !refract_direction(point.outgoing, facing, eta, direction);
+    total = std::abs(crossing.eta - 1) > 1e-6 && !refract_direction(point.outgoing, facing, crossing.eta, direction);
     // What `no_image` and `no_reflection` hide is hidden behind glass as it is before it.
-    if (!total) return follow(shading, segment, point.hit, direction, share, segment.kind, solids, state);
+    if (!total) return follow(shading, segment, point.hit, direction, share, segment.kind, crossing.solids, state);
     return follow(shading, segment, point.hit, bounce(point, normal), Color{1}, RayKind::specular, segment.solids, state);
 }
 
@@ -220,9 +239,11 @@ LightParts layered_light(const Shading& shading, const Segment& segment, const P
     LightParts parts;
     Color kept{1};
     bool mirrors = false, total = false;
+    const Crossing crossing = cross(point, segment.solids);
+    const double eta = crossing.eta;
     std::optional<Vec3> normal; // of the uppermost layer
     const Color passed = for_each_layer(plain, at, [&](const LayerPoint& layer) {
-        const Look look{point, layer};
+        const Look look{point, layer, eta};
         if (!normal) normal = layer.normal;
         Color lit{0};
         for (const Light& light : world.lights) lit += lit_by(shading, look, light, Vec2{0.5}, state);
@@ -234,10 +255,10 @@ LightParts layered_light(const Shading& shading, const Segment& segment, const P
         mirrors |= !is_black(mirror);
         if (layer.finish.conserve_energy) kept *= glm::max(Color{0}, Color{1} - mirror);
     });
-    if (normal) parts.specular = transmitted_light(shading, segment, point, *normal, passed * kept, total, state);
+    if (normal) parts.specular = transmitted_light(shading, segment, point, crossing, *normal, passed * kept, total, state);
     if (mirrors && !total)
         for_each_layer(plain, at, [&](const LayerPoint& layer) {
-            const Look look{point, layer};
+            const Look look{point, layer, eta};
             parts.specular += reflected_light(shading, segment, look, mirror_share(look), state);
         });
     return parts;
@@ -273,12 +294,16 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
         state.caustic += parts.caustic;
         state.specular += parts.specular;
     }
-    const bool medium = segment.level > 0 && point.inside;
-    return sum_of(parts) *
-           (medium ? interior_transmittance(point.material.interior, hit->t) : Color{1});
+    return sum_of(parts) * (point.inside ? interior_transmittance(point.material.interior, hit->t) : Color{1});
 }
 
 } // namespace
+
+double film_thickness(const Iridescence& irid, Vec3 point) {
+    Turbulence octaves;
+    octaves.octaves = 5;
+    return 1 + irid.turbulence * (2 * turbulence(point, octaves, 2) - 1);
+}
 
 Color povray_radiance(const Shading& shading, const Ray& camera_ray, SampleState& state) {
     Segment segment;

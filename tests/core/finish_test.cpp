@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Against what pixels of POV-Ray 3.7 show: a plane of pigment <0.8, 0.5, 0.2> seen straight from the front.
 #include "core/finish.h"
+#include "core/povray_finish.h"
 
 #include <gtest/gtest.h>
 
@@ -74,6 +75,18 @@ TEST(Finish, ThinFilmsColourWhatALampGives) {
         const Color plain = pigment * static_cast<float>(0.2 * std::cos(degrees * pi / 180));
         expect_color(lamp_light(f, pigment, 1, at(degrees), wavelengths) - plain, change, 2e-4);
     }
+}
+
+TEST(Finish, FilmsAreTurbulentAsPovRays) {
+    Iridescence irid;
+    irid.turbulence = 1;
+    EXPECT_NEAR(film_thickness(irid, {-0.625, 0.375, 0}), 1.1942, 5e-4);
+    EXPECT_NEAR(film_thickness(irid, {0.375, 0.375, 0}), 0.9477, 5e-4);
+    EXPECT_NEAR(film_thickness(irid, {-0.125, -0.625, 0}), 1.8639, 5e-4);
+    irid.turbulence = 0.2;
+    EXPECT_NEAR(film_thickness(irid, {0.625, 0.625, 0}), 1.0873, 5e-4);
+    irid.turbulence = 0;
+    EXPECT_EQ(film_thickness(irid, {0.625, 0.625, 0}), 1);
 }
 
 TEST(Finish, ReflectionGoesFromMinToMax) {
