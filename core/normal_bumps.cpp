@@ -26,7 +26,7 @@ Vec3 wrinkles(const Vec3& p) {
     return sum;
 }
 
-// Rings about each of the sources. Those of `waves` have frequencies of their own, and the slower are the higher.
+// The mean of rings about each of the sources. Those of `waves` have frequencies of their own, and the slower are the higher.
 Vec3 rings(const Pattern& pattern, Vec3 p, bool waves) {
     Vec3 sum(0);
     for (int i = 0; i < pattern.number_of_waves; ++i) {
@@ -37,7 +37,7 @@ Vec3 rings(const Pattern& pattern, Vec3 p, bool waves) {
         if (!(length > 0)) continue;
         sum += way * (cycloid(length * pattern.frequency * frequency + pattern.phase) / (frequency * length));
     }
-    return sum;
+    return sum / static_cast<double>(std::max(1, pattern.number_of_waves));
 }
 
 // ---- pictures
