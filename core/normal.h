@@ -6,9 +6,7 @@
 #pragma once
 
 #include "core/pattern.h"
-#include "core/pigment.h"
 
-#include <optional>
 #include <vector>
 
 namespace pnr {
@@ -19,11 +17,10 @@ struct SlopeStop { // of a `slope_map`: the height above a value of the pattern,
 };
 
 struct Normal {
-    Pattern pattern;                     // what turns the normal; of a bump_map it only says where the picture is
+    Pattern pattern;                     // of a bump_map a picture: its brightness is the height
     double size = 0.5;                   // bump_size: of bump_map, or the number behind any other pattern
     double accuracy = 0.02;              // distance of the tetrahedron's corners, in pattern space
     bool scale_bumps = true;             // off: `no_bump_scale`
-    std::optional<Pigment> picture;      // bump_map: its brightness is the height, a pixel is as wide as white is high
     std::vector<SlopeStop> slopes;       // slope_map: of the pattern's values; empty: the values are heights
     std::vector<BlendEntry<Normal>> normals; // normal_map, a list or `average`: these instead, picked by the pattern
 };

@@ -4,6 +4,7 @@
 
 #include "core/noise.h"
 #include "core/pattern_values.h"
+#include "core/picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,9 +43,15 @@ Vec3 rings(const Pattern& pattern, Vec3 p, bool waves) {
 
 // ---- pictures
 
-float brightness(const Pigment& picture, const SurfacePoint& at) {
-    const Color c = eval_pigment(picture, at).rgb;
-    return 0.297f * c.x + 0.589f * c.y + 0.114f * c.z;
+double brightness(const ImagePattern& picture, Vec3 point) {
+    const glm::vec4 c = picture_at(picture, point).value_or(glm::vec4(0));
+    return 0.297 * static_cast<double>(c.x) + 0.589 * static_cast<double>(c.y) + 0.114 * static_cast<double>(c.z);
+}
+
+// A picture that is a bump_map; an image_pattern is a pattern like any other.
+const ImagePattern* bump_map_of(const Normal& normal) {
+    const auto* picture = std::get_if<ImagePattern>(&normal.pattern.kind);
+    return picture && picture->is_map ? picture : nullptr;
 }
 
 // The size of a pixel along the picture's two axes, at a point of pattern space.
@@ -58,21 +65,17 @@ Vec2 pixel_size(const ImagePattern& picture, Vec3 p) {
     return whole / Vec2(width, height);
 }
 
-// The plane through the heights of three pixels: the one at the point and those a row below to its left and right. Whatever
-// way the surface looks, the picture's rows lie level on it.
-Vec3 picture_slope(const Normal& normal, const SurfacePoint& here, Vec3 n) {
-    const auto& picture = std::get<ImagePattern>(normal.picture->pattern.kind);
+// The plane through the heights of three pixels: the one at the point and those a row below to its left and right. A pixel is
+// as wide as white is high. Whatever way the surface looks, the picture's rows lie level on it.
+Vec3 picture_slope(const ImagePattern& picture, Vec3 p, Vec3 n) {
     const Vec3 up(0, 1, 0);
     Vec3 right = glm::cross(n, up);
     right = glm::length(right) > 1e-9 ? glm::normalize(right) : Vec3(1, 0, 0);
     const Vec3 along = glm::normalize(glm::cross(right, n));
-    const Vec2 pixel = pixel_size(picture, here.point);
+    const Vec2 pixel = pixel_size(picture, p);
     const bool flat = picture.map_type == ImageMapType::planar;
     const auto height_at = [&](double x, double y) {
-        SurfacePoint at = here;
-        at.point += flat ? Vec3(x * pixel.x, y * pixel.y, 0) : x * pixel.x * right + y * pixel.y * along;
-        at.uv += Vec2(x, y) * pixel;
-        return static_cast<double>(brightness(*normal.picture, at));
+        return brightness(picture, p + (flat ? Vec3(x * pixel.x, y * pixel.y, 0) : x * pixel.x * right + y * pixel.y * along));
     };
     const double middle = height_at(0, 0), east = height_at(1, -1), west = height_at(-1, -1);
     return -0.5 * (east - west) * right - (middle - 0.5 * (east + west)) * along;
@@ -88,7 +91,7 @@ Vec3 quilt(const QuiltedPattern& kind, Vec3 p) {
 } // namespace
 
 bool has_bump_vector(const Normal& normal) {
-    if (normal.picture || std::holds_alternative<QuiltedPattern>(normal.pattern.kind)) return true;
+    if (bump_map_of(normal) || std::holds_alternative<QuiltedPattern>(normal.pattern.kind)) return true;
     const auto* plain = std::get_if<PlainPattern>(&normal.pattern.kind);
     if (!plain) return false;
     switch (plain->kind) {
@@ -104,7 +107,7 @@ bool has_bump_vector(const Normal& normal) {
 }
 
 Vec3 bumped(const Normal& normal, const SurfacePoint& here, Vec3 n) {
-    if (normal.picture) return n + normal.size * picture_slope(normal, here, n);
+    if (const ImagePattern* picture = bump_map_of(normal)) return n + normal.size * picture_slope(*picture, here.point, n);
     if (const auto* quilted = std::get_if<QuiltedPattern>(&normal.pattern.kind))
         return n + normal.size * quilt(*quilted, here.point);
     const auto* plain = std::get_if<PlainPattern>(&normal.pattern.kind);

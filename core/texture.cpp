@@ -87,7 +87,6 @@ void visit_patterns(Pigment& pigment, const PatternUse& use) {
 
 void visit_patterns(Normal& normal, const PatternUse& use) {
     use(normal.pattern);
-    if (normal.picture) visit_patterns(*normal.picture, use);
     for (auto& entry : normal.normals) visit_patterns(entry.value, use);
 }
 

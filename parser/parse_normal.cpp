@@ -28,9 +28,7 @@ void parse_normal_list(Parser& p, Normal& normal) {
 void parse_bump_map(Parser& p, Normal& normal) {
     ImagePattern image = parse_image_map(p, &normal.size);
     image.as_stored = true;
-    set_kind(normal.pattern, image);
-    normal.picture.emplace();
-    set_kind(normal.picture->pattern, std::move(image));
+    set_kind(normal.pattern, std::move(image));
 }
 
 std::vector<SlopeStop> parse_slope_stops(Parser& p) {
@@ -57,7 +55,6 @@ void parse_normal_item(Parser& p, Normal& normal) {
     else if (Transform transform; accept_transform(p, transform))
         transform_bumps(normal, transform);
     else if (const Token word = peek(p); parse_pattern(p, normal.pattern, read_list)) {
-        normal.picture.reset();
         parse_size(p, normal);
         if (is(word, "facets"_kw)) warn_unsupported(p, word, "facets", "the surface is left smooth");
     }
