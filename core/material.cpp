@@ -44,7 +44,7 @@ struct Sum {
     Vec3 normal{0};
 
     void add_layer(const LayerPoint& layer, const Interior& interior, Vec3 outgoing, Color& mirror, float share);
-    void add_texture(const Material& material, std::span<const TextureLayer> layers, const SurfacePoint& at, Vec3 outgoing,
+    void add_texture(const Material& material, const Texture& plain, const SurfacePoint& at, Vec3 outgoing,
                      float share);
 };
 
@@ -73,12 +73,14 @@ void Sum::add_layer(const LayerPoint& layer, const Interior& interior, Vec3 outg
     mirror = clamp_albedo(mirror + reflected);
 }
 
-void Sum::add_texture(const Material& material, std::span<const TextureLayer> layers, const SurfacePoint& at,
+void Sum::add_texture(const Material& material, const Texture& plain, const SurfacePoint& at,
                       Vec3 outgoing, float share) {
     Color mirror(0);
+    Color lowest(0);
     std::optional<Vec3> top;
-    const Color passed = clamp_albedo(for_each_layer(layers, at, [&](const LayerPoint& layer) {
+    const Color passed = clamp_albedo(for_each_layer(plain, at, [&](const LayerPoint& layer) {
         if (!top) top = layer.normal;
+        lowest = clamp_albedo(layer.color);
         add_layer(layer, material.interior, outgoing, mirror, share);
     }));
     const float through = max_component(passed);
@@ -88,7 +90,7 @@ void Sum::add_texture(const Material& material, std::span<const TextureLayer> la
     const Color interface_reflection(through > 0 ? static_cast<float>(fresnel_dielectric(cosine, bsdf.eta)) : 0.f);
     bsdf.mirror += share * glm::max(interface_reflection * through, mirror);
     bsdf.transmit += share * passed * (Color(1) - glm::max(interface_reflection, mirror));
-    bsdf.tint += share * through * (layers.empty() ? Color(0) : clamp_albedo(see_layer(layers.front(), at, Color(1)).color));
+    bsdf.tint += share * through * lowest;
 }
 
 // What is left for the scattering lobes; they share it when they ask for more.
@@ -122,10 +124,10 @@ Bsdf make_bsdf(const World& world, const Hit& hit, Vec3 outgoing) {
     Sum sum{bsdf};
     const Texture& texture = side_texture(material, bsdf.inside);
     if (is_plain(texture))
-        sum.add_texture(material, texture.layers, at, outgoing, 1);
+        sum.add_texture(material, texture, at, outgoing, 1);
     else
-        for_each_texture(texture, at, [&](std::span<const TextureLayer> layers, const SurfacePoint& here, double share) {
-            sum.add_texture(material, layers, here, outgoing, static_cast<float>(share));
+        for_each_texture(texture, at, [&](const Texture& plain, const SurfacePoint& here, double share) {
+            sum.add_texture(material, plain, here, outgoing, static_cast<float>(share));
         });
     const double length = glm::length(sum.normal);
     bsdf.normal = length > 0 && glm::dot(sum.normal, outgoing) > 0 ? sum.normal / length : at.normal;
@@ -141,19 +143,19 @@ bool reflects(const TextureLayer& layer) {
     return max_component(r.max) > 0 || max_component(r.min) > 0;
 }
 
-bool reflects(const Texture& texture) {
+bool mirrors(const Texture& texture) {
     if (!is_plain(texture))
         return std::any_of(texture.textures.begin(), texture.textures.end(),
-                           [](const auto& entry) { return reflects(entry.value); });
-    return std::any_of(texture.layers.begin(), texture.layers.end(),
-                       [](const TextureLayer& layer) { return reflects(layer); });
+                           [](const auto& entry) { return mirrors(entry.value); });
+    return reflects(texture) || std::any_of(texture.upper.begin(), texture.upper.end(), reflects);
 }
 
 bool lets_light_through(const Texture& texture) {
     if (!is_plain(texture))
         return std::any_of(texture.textures.begin(), texture.textures.end(),
                            [](const auto& entry) { return lets_light_through(entry.value); });
-    return std::all_of(texture.layers.begin(), texture.layers.end(),
+    return is_see_through(texture.pigment) &&
+           std::all_of(texture.upper.begin(), texture.upper.end(),
                        [](const TextureLayer& layer) { return is_see_through(layer.pigment); });
 }
 
@@ -161,7 +163,7 @@ bool lets_light_through(const Texture& texture) {
 
 bool is_specular(const Material& material) {
     return material.photons.specular_probability.value_or(0) > 0 || lets_light_through(material) ||
-           reflects(material.texture) || (material.interior_texture && reflects(*material.interior_texture));
+           mirrors(material.texture) || (material.interior_texture && mirrors(*material.interior_texture));
 }
 
 bool lets_light_through(const Material& material) {

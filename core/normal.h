@@ -7,7 +7,6 @@
 
 #include "core/pattern.h"
 
-#include <optional>
 #include <vector>
 
 namespace pnr {
@@ -18,11 +17,10 @@ struct SlopeStop { // of a `slope_map`: the height above a value of the pattern,
 };
 
 struct Normal {
-    Pattern pattern;                     // an ImagePattern is a bump_map: its brightness is the height
+    Pattern pattern;                     // of a bump_map a picture: its brightness is the height
     double size = 0.5;                   // bump_size: of bump_map, or the number behind any other pattern
     double accuracy = 0.02;              // distance of the tetrahedron's corners, in pattern space
     bool scale_bumps = true;             // off: `no_bump_scale`
-    bool index_heights = false;          // of a bump_map: `use_index`
     std::vector<SlopeStop> slopes;       // slope_map: of the pattern's values; empty: the values are heights
     std::vector<BlendEntry<Normal>> normals; // normal_map, a list or `average`: these instead, picked by the pattern
 };

@@ -4,6 +4,7 @@
 #include "core/povray_finish.h"
 
 #include "core/area_light.h"
+#include "core/noise.h"
 #include "core/probe.h"
 
 #include <algorithm>
@@ -70,9 +71,9 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state);
 // What goes through all layers that a shadow ray meets at a point, with POV-Ray's faked caustics.
 Color passed_light(const Point& point) {
     Color sum(0);
-    for_each_texture(point.texture, point.at, [&](std::span<const TextureLayer> layers, const SurfacePoint& at, double share) {
+    for_each_texture(point.texture, point.at, [&](const Texture& plain, const SurfacePoint& at, double share) {
         std::optional<Vec3> normal;
-        Color passed = for_each_layer(layers, at, [&](const LayerPoint& layer) {
+        Color passed = for_each_layer(plain, at, [&](const LayerPoint& layer) {
             if (!normal) normal = layer.normal;
         });
         if (const double power = point.material.interior.caustics; power > 0)
@@ -140,10 +141,31 @@ Color light_share(const Shading& shading, const Hit& hit, const Light& light, co
 
 // ---- surfaces
 
-// One texture's layers at a hit, and their share of what is seen there.
+// How light bends where the ray goes through a surface, and which solids it is in then.
+struct Crossing {
+    double eta = 1; // ior of the viewer's side over that of the other one
+    Solids solids;
+};
+
+Crossing cross(const Point& point, const Solids& before) {
+    Crossing crossing{1, before};
+    const Material& material = point.material;
+    if (material.interior_id == 0) return crossing;
+    const double ior = material.interior.ior;
+    if (crossing.solids.leave(material.interior_id) || point.inside) {
+        crossing.eta = ior / crossing.solids.ior();
+    } else {
+        crossing.eta = before.ior() / ior;
+        crossing.solids.enter({material.interior_id, ior});
+    }
+    return crossing;
+}
+
+// One of the layers at a hit.
 struct Look {
     const Point& point;
     const LayerPoint& layer;
+    double eta; // ior of the viewer's side over that of the other one
 };
 
 // Diffuse light, highlights and thin film of one light source on one layer.
@@ -158,9 +180,19 @@ Color lit_from(const Shading& shading, const Look& look, const Light& light, con
     view.both_sides = look.point.material.double_illuminate;
     view.highlights = !light.said.shadowless;
     if (finish.crand > 0) view.grain = state.rng.uniform();
+    const auto lit = [&](const Finish& f) {
+        return lamp_light(f, look.layer.color, look.layer.opacity, view, shading.world.irid_wavelength);
+    };
+    Color sum;
+    if (finish.irid.turbulence != 0) {
+        Finish here = finish;
+        here.irid.thickness *= film_thickness(finish.irid, hit.position + shading.world.offset);
+        sum = lit(here);
+    } else {
+        sum = lit(finish);
+    }
     // A light of colour c gives the irradiance pi c cos: POV-Ray's diffuse is albedo c cos.
-    const Color sum = lamp_light(finish, look.layer.color, look.layer.opacity, view, shading.world.irid_wavelength) *
-                      sample.irradiance / static_cast<float>(pi);
+    sum *= sample.irradiance / static_cast<float>(pi);
     if (is_black(sum) || light.said.shadowless) return sum;
     return sum * light_share(shading, look.point.hit, light, sample, state);
 }
@@ -181,9 +213,9 @@ struct Within {
 };
 
 Color follow(const Shading& shading, const Segment& segment, const Hit& hit, Vec3 direction, Color weight,
-             const Within& within, SampleState& state) {
-    const Segment next{leave(hit, direction), RayKind::specular, segment.level + 1, segment.throughput * weight,
-                       within.solids, within.unhollow};
+             RayKind kind, const Within& within, SampleState& state) {
+    const Segment next{leave(hit, direction), kind, segment.level + 1, segment.throughput * weight, within.solids,
+                       within.unhollow};
     if (next.level > shading.settings.max_trace_level) return Color{0};
     if (max_component(next.throughput) < shading.settings.adc_bailout) return Color{0};
     return weight * trace(shading, next, state);
@@ -204,48 +236,46 @@ Color caustic_light(const Shading& shading, const Look& look, SampleState& state
 // How much of the reflected ray is seen at this angle.
 Color mirror_share(const Look& look) {
     const double cosine = std::clamp(glm::dot(look.point.outgoing, look.layer.normal), 0.0, 1.0);
-    const double ior = look.point.material.interior.ior;
     const Reflection& said = look.layer.finish.reflection;
-    const double fresnel = said.fresnel ? fresnel_dielectric(std::max(cosine, 1e-9), look.point.inside ? ior : 1 / ior) : 0;
+    const double fresnel = said.fresnel ? fresnel_dielectric(std::max(cosine, 1e-9), look.eta) : 0;
     return reflectance(said, look.layer.color, cosine, fresnel);
+}
+
+// Where a mirror with this normal sends the ray. One that looks away from the viewer counts as if it were not bumped, and a ray
+// that would go below the surface is turned back up.
+Vec3 bounce(const Point& point, Vec3 normal) {
+    const Vec3 raw = point.at.normal;
+    Vec3 direction = mirror_direction(point.outgoing, glm::dot(normal, point.outgoing) < 0 ? raw : normal);
+    if (const double below = glm::dot(direction, raw); below < 0) direction = glm::normalize(direction - 2 * below * raw);
+    return direction;
 }
 
 Color reflected_light(const Shading& shading, const Segment& segment, const Look& look, Color share, SampleState& state) {
     if (is_black(share)) return Color{0};
-    const Vec3 direction = mirror_direction(look.point.outgoing, look.layer.normal);
-    const Color found = follow(shading, segment, look.point.hit, direction, share, {segment.solids, segment.unhollow}, state);
+    const Color found = follow(shading, segment, look.point.hit, bounce(look.point, look.layer.normal), share,
+                               RayKind::specular, {segment.solids, segment.unhollow}, state);
     const double exponent = look.layer.finish.reflection.exponent;
     if (exponent == 1) return found;
     const Color seen = found / glm::max(share, Color{1e-12f});
     return share * glm::pow(glm::max(seen, Color{0}), Color{static_cast<float>(1 / exponent)});
 }
 
-// How light bends where the ray goes through a surface, and which solids it is in then.
-double pass_surface(const Point& point, Solids& solids) {
-    const Material& material = point.material;
-    if (material.interior_id == 0) return 1;
-    const double ior = material.interior.ior;
-    if (solids.leave(material.interior_id) || point.inside) return ior / solids.ior();
-    const double outside = solids.ior();
-    solids.enter({material.interior_id, ior});
-    return outside / ior;
-}
-
 // Total reflection is not tinted, and stands in place of the finish's own: `total` tells of it.
-Color transmitted_light(const Shading& shading, const Segment& segment, const Point& point, Vec3 normal, Color share,
-                        bool& total, SampleState& state) {
+Color transmitted_light(const Shading& shading, const Segment& segment, const Point& point, const Crossing& crossing,
+                        Vec3 normal, Color share, bool& total, SampleState& state) {
     if (is_black(share)) return Color{0};
     Vec3 direction = -point.outgoing;
-    Within within{segment.solids, segment.unhollow};
-    const double eta = pass_surface(point, within.solids);
-    total = std::abs(eta - 1) > 1e-6 && !refract_direction(point.outgoing, normal, eta, direction);
+    const Vec3 facing = glm::dot(normal, point.outgoing) < 0 ? -normal : normal;
+    total = std::abs(crossing.eta - 1) > 1e-6 && !refract_direction(point.outgoing, facing, crossing.eta, direction);
     if (!total) {
+        Within within{crossing.solids, segment.unhollow};
         const Surface& surface = shading.world.surfaces[point.hit.surface];
         if (!surface.hollow && surface.closed) within.unhollow = std::max(0, within.unhollow + (point.inside ? -1 : 1));
-        return follow(shading, segment, point.hit, direction, share, within, state);
+        // What `no_image` and `no_reflection` hide is hidden behind glass as it is before it.
+        return follow(shading, segment, point.hit, direction, share, segment.kind, within, state);
     }
-    direction = mirror_direction(point.outgoing, normal);
-    return follow(shading, segment, point.hit, direction, Color{1}, {segment.solids, segment.unhollow}, state);
+    return follow(shading, segment, point.hit, bounce(point, normal), Color{1}, RayKind::specular,
+                  {segment.solids, segment.unhollow}, state);
 }
 
 struct LightParts {
@@ -256,14 +286,16 @@ Color sum_of(const LightParts& parts) { return parts.direct + parts.caustic + pa
 
 // Light of a plain texture. What upper layers let pass tints everything below them but reflections.
 LightParts layered_light(const Shading& shading, const Segment& segment, const Point& point,
-                         std::span<const TextureLayer> layers, const SurfacePoint& at, SampleState& state) {
+                         const Texture& plain, const SurfacePoint& at, SampleState& state) {
     const World& world = shading.world;
     LightParts parts;
     Color kept{1};
     bool mirrors = false, total = false;
+    const Crossing crossing = cross(point, segment.solids);
+    const double eta = crossing.eta;
     std::optional<Vec3> normal; // of the uppermost layer
-    const Color passed = for_each_layer(layers, at, [&](const LayerPoint& layer) {
-        const Look look{point, layer};
+    const Color passed = for_each_layer(plain, at, [&](const LayerPoint& layer) {
+        const Look look{point, layer, eta};
         if (!normal) normal = layer.normal;
         Color lit{0};
         for (const Light& light : world.lights)
@@ -276,10 +308,10 @@ LightParts layered_light(const Shading& shading, const Segment& segment, const P
         mirrors |= !is_black(mirror);
         if (layer.finish.conserve_energy) kept *= glm::max(Color{0}, Color{1} - mirror);
     });
-    if (normal) parts.specular = transmitted_light(shading, segment, point, *normal, passed * kept, total, state);
+    if (normal) parts.specular = transmitted_light(shading, segment, point, crossing, *normal, passed * kept, total, state);
     if (mirrors && !total)
-        for_each_layer(layers, at, [&](const LayerPoint& layer) {
-            const Look look{point, layer};
+        for_each_layer(plain, at, [&](const LayerPoint& layer) {
+            const Look look{point, layer, eta};
             parts.specular += reflected_light(shading, segment, look, mirror_share(look), state);
         });
     return parts;
@@ -287,13 +319,13 @@ LightParts layered_light(const Shading& shading, const Segment& segment, const P
 
 LightParts surface_light(const Shading& shading, const Segment& segment, const Point& point, SampleState& state) {
     if (is_plain(point.texture))
-        return layered_light(shading, segment, point, point.texture.layers, point.at, state);
+        return layered_light(shading, segment, point, point.texture, point.at, state);
     LightParts sum;
-    for_each_texture(point.texture, point.at, [&](std::span<const TextureLayer> layers, const SurfacePoint& at, double share) {
+    for_each_texture(point.texture, point.at, [&](const Texture& plain, const SurfacePoint& at, double share) {
         const auto weight = static_cast<float>(share);
         Segment part = segment;
         part.throughput *= weight;
-        const LightParts parts = layered_light(shading, part, point, layers, at, state);
+        const LightParts parts = layered_light(shading, part, point, plain, at, state);
         sum.direct += weight * parts.direct, sum.caustic += weight * parts.caustic;
         sum.glow += weight * parts.glow, sum.specular += weight * parts.specular;
     });
@@ -318,13 +350,17 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
         state.caustic += parts.caustic;
         state.specular += parts.specular;
     }
-    const bool medium = segment.level > 0 && point.inside;
-    const Color seen =
-        sum_of(parts) * (medium ? interior_transmittance(point.material.interior, hit->t) : Color{1});
+    const Color seen = sum_of(parts) * (point.inside ? interior_transmittance(point.material.interior, hit->t) : Color{1});
     return segment.unhollow > 0 ? seen : through_atmosphere(world, segment.ray, hit->t, seen);
 }
 
 } // namespace
+
+double film_thickness(const Iridescence& irid, Vec3 point) {
+    Turbulence octaves;
+    octaves.octaves = 5;
+    return 1 + irid.turbulence * (2 * turbulence(point, octaves, 2) - 1);
+}
 
 Color povray_radiance(const Shading& shading, const Ray& camera_ray, SampleState& state) {
     Segment segment;

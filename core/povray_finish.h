@@ -11,4 +11,7 @@ namespace pnr {
 // reflection, transparency); with a caustic map (`photons {}` alone) its light is added.
 Color povray_radiance(const Shading& shading, const Ray& camera_ray, SampleState& state);
 
+// How thick a thin film is at a point of scene space, over what its `thickness` says.
+double film_thickness(const Iridescence& irid, Vec3 point);
+
 } // namespace pnr

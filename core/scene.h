@@ -131,6 +131,7 @@ struct Scene {
     Atmosphere atmosphere;
     Color ambient_light{1};          // global_settings
     Color irid_wavelength{0.70f, 0.52f, 0.48f}; // global_settings; likewise
+    int noise_generator = 2, number_of_waves = 10; // of patterns that say none
     bool radiosity = false;          // a `radiosity {}` block: indirect light is wanted
     bool povray = false;             // a .pov file
     double version = 3.7;            // of POV-Ray, that the text asks for (#version)

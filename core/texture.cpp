@@ -5,15 +5,22 @@
 
 namespace pnr {
 
+namespace {
+
+void transform_layer(TextureLayer& layer, const Transform& by) {
+    transform_pigment(layer.pigment, by);
+    if (layer.normal) transform_bumps(*layer.normal, by);
+}
+
+} // namespace
+
 void transform_texture(Texture& texture, const Transform& by) {
     if (!is_plain(texture)) { // what it picks from is seen in its own space
         transform_pattern(texture.pattern, by);
         return;
     }
-    for (TextureLayer& layer : texture.layers) {
-        transform_pigment(layer.pigment, by);
-        if (layer.normal) transform_bumps(*layer.normal, by);
-    }
+    transform_layer(texture, by);
+    for (TextureLayer& layer : texture.upper) transform_layer(layer, by);
 }
 
 namespace {
@@ -29,7 +36,7 @@ void visit_average(const Texture& texture, const SurfacePoint& here, double shar
 }
 
 void visit_textures(const Texture& texture, const SurfacePoint& at, double share, const TextureUse& use) {
-    if (is_plain(texture)) return use(texture.layers, at, share);
+    if (is_plain(texture)) return use(texture, at, share);
     const SurfacePoint here = to_pattern_space(texture.pattern, at);
     if (std::holds_alternative<AveragePattern>(texture.pattern.kind))
         return visit_average(texture, here, share, use);
@@ -57,18 +64,15 @@ LayerPoint see_layer(const TextureLayer& layer, const SurfacePoint& at, Color ab
 
 Color texture_color(const Texture& texture, const SurfacePoint& at) {
     Color sum(0);
-    for_each_texture(texture, at,
-                     [&](std::span<const TextureLayer> layers, const SurfacePoint& here, double share) {
-                         Color above(1), color(0);
-                         for (auto layer = layers.rbegin(); layer != layers.rend(); ++layer) {
-                             const ColorFT c = eval_pigment(layer->pigment, here);
-                             const bool last = layer + 1 == layers.rend();
-                             const float opacity = std::max(0.0f, 1 - c.filter - c.transmit);
-                             color += above * c.rgb * (last ? 1 : opacity);
-                             above *= c.rgb * c.filter + Color(c.transmit);
-                         }
-                         sum += color * static_cast<float>(share);
-                     });
+    for_each_texture(texture, at, [&](const Texture& plain, const SurfacePoint& here, double share) {
+        Color color(0), lowest(0);
+        const Color passed = for_each_layer(plain, here, [&](const LayerPoint& layer) {
+            color += layer.above * layer.color * layer.opacity;
+            lowest = layer.color;
+        });
+        // What shines through is not seen; the lowest layer stands for it.
+        sum += (color + passed * lowest) * static_cast<float>(share);
+    });
     return sum;
 }
 
@@ -86,14 +90,17 @@ void visit_patterns(Normal& normal, const PatternUse& use) {
     for (auto& entry : normal.normals) visit_patterns(entry.value, use);
 }
 
+void visit_patterns(TextureLayer& layer, const PatternUse& use) {
+    visit_patterns(layer.pigment, use);
+    if (layer.normal) visit_patterns(*layer.normal, use);
+}
+
 } // namespace
 
 void for_each_pattern(Texture& texture, const PatternUse& use) {
     use(texture.pattern);
-    for (TextureLayer& layer : texture.layers) {
-        visit_patterns(layer.pigment, use);
-        if (layer.normal) visit_patterns(*layer.normal, use);
-    }
+    visit_patterns(static_cast<TextureLayer&>(texture), use);
+    for (TextureLayer& layer : texture.upper) visit_patterns(layer, use);
     for (auto& entry : texture.textures) for_each_pattern(entry.value, use);
 }
 

@@ -11,7 +11,6 @@
 
 #include <functional>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace pnr {
@@ -22,20 +21,23 @@ struct TextureLayer {
     Finish finish;
 };
 
-struct Texture {
-    std::vector<TextureLayer> layers{1}; // the lowest first; never empty; not used if `textures` is not empty
-    Pattern pattern;                     // an ImagePattern is a material_map: it picks by the picture's indices
-    std::vector<BlendEntry<Texture>> textures;
+struct Texture : TextureLayer {             // plain: the lowest layer, of most textures the only one
+    std::vector<TextureLayer> upper;         // the layers on it, from below
+    Pattern pattern;                         // what picks from `textures`
+    std::vector<BlendEntry<Texture>> textures; // not empty: these instead
 };
 
 inline bool is_plain(const Texture& texture) { return texture.textures.empty(); }
+inline TextureLayer& top_layer(Texture& texture) {
+    return texture.upper.empty() ? static_cast<TextureLayer&>(texture) : texture.upper.back();
+}
 
 // The texture follows its object, like transform_pigment.
 void transform_texture(Texture& texture, const Transform& by);
 
-// The plain textures that a point shows, each as its layers, the point as they see it (in the space of the patterns around
-// them), and its share; the shares add up to 1.
-using TextureUse = std::function<void(std::span<const TextureLayer>, const SurfacePoint&, double)>;
+// The plain textures that a point shows, each with the point as it sees it (in the space of the patterns around it) and its
+// share; the shares add up to 1.
+using TextureUse = std::function<void(const Texture&, const SurfacePoint&, double)>;
 void for_each_texture(const Texture& texture, const SurfacePoint& at, const TextureUse& use);
 
 // One layer at a point.
@@ -51,13 +53,15 @@ LayerPoint see_layer(const TextureLayer& layer, const SurfacePoint& at, Color ab
 
 // `use(LayerPoint)` from the uppermost layer down to the first that lets nothing through; what goes through all of them.
 template <class F>
-Color for_each_layer(std::span<const TextureLayer> layers, const SurfacePoint& at, F use) {
+Color for_each_layer(const Texture& plain, const SurfacePoint& at, F use) {
     Color passed(1);
-    for (auto layer = layers.rbegin(); layer != layers.rend() && !is_black(passed); ++layer) {
-        const LayerPoint point = see_layer(*layer, at, passed);
+    const auto see = [&](const TextureLayer& layer) {
+        const LayerPoint point = see_layer(layer, at, passed);
         use(point);
         passed *= point.passed;
-    }
+    };
+    for (auto layer = plain.upper.rbegin(); layer != plain.upper.rend() && !is_black(passed); ++layer) see(*layer);
+    if (!is_black(passed)) see(plain);
     return passed;
 }
 

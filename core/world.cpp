@@ -2,10 +2,10 @@
 #include "core/world.h"
 
 #include "core/geometry.h"
-#include "core/image_io.h"
 #include "core/material.h"
 #include "core/mesh_io.h"
 #include "core/mesh_repair.h"
+#include "core/pattern_assets.h"
 #include "core/probe.h"
 #include "core/shape_field.h"
 
@@ -67,7 +67,7 @@ void require(bool fine, const SourceRef& where, const char* text) {
     if (!fine) throw SceneError(where, text);
 }
 
-// ---- meshes and pictures
+// ---- meshes
 // --------------------------------------------------------------------------------------
 
 // Each file is read once, each mesh worked on and smoothed once, however many objects show it.
@@ -75,7 +75,6 @@ struct Assets {
     using Work = std::tuple<const MeshData*, bool, int, int>;
     std::map<std::string, std::shared_ptr<const MeshData>> meshes;
     std::map<const MeshData*, std::shared_ptr<const MeshData>> smooth;
-    std::map<std::pair<std::string, bool>, std::shared_ptr<const Image<glm::vec4>>> images;
     std::map<Work, std::shared_ptr<const MeshData>> worked_on;
     std::map<const void*, Shape> fields; // by what was said of them
 
@@ -110,20 +109,6 @@ struct Assets {
             entry->second = prepare_field_shape(said);
         }
         return entry->second;
-    }
-
-    // In the scene's working values.
-    std::shared_ptr<const Image<glm::vec4>> image(const ImagePattern& said, double assumed_gamma) {
-        auto& entry = images[{said.file, said.as_stored}];
-        if (!entry) {
-            Image<glm::vec4> picture = read_image(said.file);
-            const double gamma = said.as_stored ? 0 : assumed_gamma; // 0: what the sRGB curve had decoded
-            for (glm::vec4& pixel : picture.pixels)
-                for (int c = 0; c < 3; ++c) pixel[c] = working_from_linear(pixel[c], gamma);
-            entry = std::make_shared<const Image<glm::vec4>>(std::move(picture));
-        }
-        require(!entry->empty(), said.said_at, "the picture is empty");
-        return entry;
     }
 
 private:
@@ -221,6 +206,7 @@ struct Builder {
     const Scene& scene;
     World world;
     Assets assets;
+    PatternAssets pattern_assets{};
     std::vector<GeometryItem> items; // in scene space until the offset is known
     std::vector<CsgNode> solids{};
     std::vector<Surface> parts{}; // of shapes with textures of their own; they come behind the items' surfaces
@@ -249,14 +235,9 @@ struct Builder {
         material.double_illuminate = from.double_illuminate;
         if (from.photons) material.photons = *from.photons;
         for (Texture* texture : {&material.texture, material.interior_texture ? &*material.interior_texture : nullptr})
-            if (texture) for_each_pattern(*texture, [&](Pattern& pattern) { prepare_pattern(pattern); });
+            if (texture) for_each_pattern(*texture, [&](Pattern& pattern) { prepare_pattern(pattern, pattern_assets); });
         world.materials.push_back(std::move(material));
         return static_cast<int>(world.materials.size()) - 1;
-    }
-
-    void prepare_pattern(Pattern& pattern) {
-        if (auto* picture = std::get_if<ImagePattern>(&pattern.kind))
-            picture->image = assets.image(*picture, scene.assumed_gamma);
     }
 
     // `bare`: it may show another's texture.
@@ -545,7 +526,7 @@ void check_lights_and_camera(const Scene& scene) {
 
 World build_world(const Scene& scene, const Settings& settings) {
     check_lights_and_camera(scene);
-    Builder builder{scene, {}, {}, {}};
+    Builder builder{scene, {}, {}, {scene.assumed_gamma, scene.noise_generator, scene.number_of_waves}, {}};
     World& world = builder.world;
     world.objects.emplace_back();
     world.materials.emplace_back();

@@ -55,13 +55,24 @@ void parse_transform_function(Parser& p, Function& function) {
     };
 }
 
+// `pattern { ... }`: the value at the point.
+void parse_pattern_function(Parser& p, Function& function) {
+    next(p);
+    function.parameters = 3;
+    function.cost = 50;
+    auto pattern = std::make_shared<const Pattern>(prepared(p, parse_pattern_block(p)));
+    function.native = [pattern = std::move(pattern)](const double* a, double* results) {
+        results[0] = eval_pattern(*pattern, {Vec3(a[0], a[1], a[2]), Vec2(a[0], a[1])});
+    };
+}
+
 // `pigment { ... }`: the colour at the point.
 void parse_pigment_function(Parser& p, Function& function) {
     next(p);
     function.parameters = 3;
     function.results = 5;
     function.cost = 50;
-    auto pigment = std::make_shared<const Pigment>(parse_pigment(p, Pigment{}));
+    auto pigment = std::make_shared<const Pigment>(prepared(p, parse_pigment(p, Pigment{})));
     function.native = [pigment = std::move(pigment)](const double* a, double* results) {
         const ColorFT color = eval_pigment(*pigment, {Vec3(a[0], a[1], a[2]), Vec2(a[0], a[1])});
         for (int i = 0; i < 3; ++i) results[i] = color.rgb[i];
@@ -102,11 +113,12 @@ bool parse_native(Parser& p, Function& function) {
     case "pigment"_kw:
         parse_pigment_function(p, function);
         return true;
+    case "pattern"_kw:
+    case "pattern"_kw:
+        parse_pattern_function(p, function);
+        return true;
     case "spline"_kw:
         parse_spline_function(p, function);
-        return true;
-    case "pattern"_kw:
-        skip_body(p, function);
         return true;
     default:
         return false;

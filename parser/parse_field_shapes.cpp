@@ -161,7 +161,7 @@ void parse_height_function(Parser& p, HeightFieldData& data) {
     data.height = parse_int(p, 2, 1 << 15, "the height of a height field");
     charge(p, word,
            sizeof(float) * static_cast<std::size_t>(data.width) * static_cast<std::size_t>(data.height));
-    const auto function = parse_function_block(p, word);
+    const auto function = parse_function_body(p, word);
     if (function->unsupported.empty()) {
         data.function = [field = field_program(function)](Vec3 at) {
             FieldScratch scratch;

@@ -26,8 +26,9 @@ void parse_normal_list(Parser& p, Normal& normal) {
 
 // The picture, and what else stands in its block.
 void parse_bump_map(Parser& p, Normal& normal) {
-    ImagePattern image = parse_image_map(p);
-    normal.pattern.kind = std::move(image);
+    ImagePattern image = parse_image_map(p, &normal.size);
+    image.as_stored = true;
+    set_kind(normal.pattern, std::move(image));
 }
 
 std::vector<SlopeStop> parse_slope_stops(Parser& p) {
@@ -53,8 +54,10 @@ void parse_normal_item(Parser& p, Normal& normal) {
         normal.scale_bumps = !parse_optional_bool(p);
     else if (Transform transform; accept_transform(p, transform))
         transform_bumps(normal, transform);
-    else if (parse_pattern(p, normal.pattern, read_list))
+    else if (const Token word = peek(p); parse_pattern(p, normal.pattern, read_list)) {
         parse_size(p, normal);
+        if (is(word, "facets"_kw)) warn_unsupported(p, word, "facets", "the surface is left smooth");
+    }
     else if (!parse_pattern_modifier(p, normal.pattern))
         unexpected(p, "normal",
                    {"bumps"_kw, "dents"_kw, "wrinkles"_kw, "ripples"_kw, "waves"_kw, "bump_map"_kw, "bump_size"_kw,

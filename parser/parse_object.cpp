@@ -98,7 +98,7 @@ bool is_group(const Token& word) {
 // What `pigment`, `normal` and `finish` of an object change.
 TextureLayer& own_layer(Parser& p, Object& object) {
     if (!object.texture) object.texture = p.default_texture;
-    return object.texture->layers.back();
+    return top_layer(*object.texture);
 }
 
 // A second texture lies on the first, as a layer.

@@ -208,6 +208,13 @@ bool parse_special_pattern(Parser& p, Pattern& pattern) {
     case "density_file"_kw:
         next(p), set_kind(pattern, parse_density_file(p));
         return true;
+    case "image_pattern"_kw: {
+        next(p);
+        ImagePattern image = parse_image_map(p);
+        image.is_map = false;
+        set_kind(pattern, std::move(image));
+        return true;
+    }
     case "pigment_pattern"_kw:
         next(p);
         set_kind(pattern, PigmentPattern{std::make_shared<const Pigment>(parse_pigment(p, Pigment{}))});
@@ -303,7 +310,7 @@ bool parse_fractal_word(Parser& p, Pattern& pattern) {
                                        [&](auto& k) { k.exponent = parse_int(p, 2, 33, "`exponent`"); });
     if (!exterior && !is(word, "interior"_kw)) return false;
     return word_of<FractalPattern>(p, pattern, [&](auto& k) {
-        (exterior ? k.exterior_type : k.interior_type) = parse_int(p, 0, 8, token_text(p, word));
+        (exterior ? k.exterior_type : k.interior_type) = parse_int(p, 0, 6, token_text(p, word));
         accept_comma(p);
         (exterior ? k.exterior_factor : k.interior_factor) = parse_float(p);
     });
@@ -357,6 +364,49 @@ bool parse_pattern_modifier(Parser& p, Pattern& pattern) {
     default:
         return parse_wave(p, pattern) || parse_fractal_word(p, pattern) || parse_word_of_kind(p, pattern);
     }
+}
+
+Pattern parse_pattern_block(Parser& p) {
+    Pattern pattern;
+    block(p, "pattern", [&] {
+        if (Transform transform; accept_transform(p, transform))
+            transform_pattern(pattern, transform);
+        else if (!parse_pattern(p, pattern, [](const Pattern&) {}) && !parse_pattern_modifier(p, pattern))
+            unexpected(p, "pattern",
+                       {"bozo"_kw, "granite"_kw, "gradient"_kw, "checker"_kw, "crackle"_kw, "turbulence"_kw,
+                        "translate"_kw, "rotate"_kw, "scale"_kw});
+    });
+    return pattern;
+}
+
+namespace {
+
+// Files are read once for all functions of a scene, but for those whose gamma changes between.
+template <class Prepare>
+void prepare_now(Parser& p, Prepare prepare) {
+    PatternAssets& assets = p.pattern_assets;
+    if (assets.assumed_gamma != p.scene.assumed_gamma) assets.pictures.clear();
+    assets.assumed_gamma = p.scene.assumed_gamma;
+    assets.noise_generator = p.scene.noise_generator;
+    assets.number_of_waves = p.scene.number_of_waves;
+    const Token at = peek(p);
+    try {
+        prepare(assets);
+    } catch (const std::runtime_error& problem) { // FileError, SceneError
+        fail(p, at, problem.what());
+    }
+}
+
+} // namespace
+
+Pattern prepared(Parser& p, Pattern pattern) {
+    prepare_now(p, [&](PatternAssets& assets) { prepare_pattern(pattern, assets); });
+    return pattern;
+}
+
+Pigment prepared(Parser& p, Pigment pigment) {
+    prepare_now(p, [&](PatternAssets& assets) { prepare_pigment(pigment, assets); });
+    return pigment;
 }
 
 } // namespace pnr

@@ -37,7 +37,7 @@ void parse_pigment_list(Parser& p, Pigment& pigment, const Pattern& pattern) {
     bool plain_only = true;
     while (pigments.size() < colors.size() && (at_color_expression(p) || at(p, "pigment"_kw))) {
         if (accept(p, "pigment"_kw)) {
-            pigments.push_back(parse_pigment(p, p.default_texture.layers.back().pigment));
+            pigments.push_back(parse_pigment(p, top_layer(p.default_texture).pigment));
             plain_only = false;
         } else {
             colors[pigments.size()] = parse_color(p);
@@ -101,7 +101,7 @@ Pigment parse_pigment(Parser& p, const Pigment& start) {
 
 BlendMap<Pigment> parse_pigment_map(Parser& p) {
     return parse_blend_map<Pigment>(p, "pigment_map", [&] {
-        Pigment entry = p.default_texture.layers.back().pigment;
+        Pigment entry = top_layer(p.default_texture).pigment;
         while (!at(p, ']') && !at(p, '}')) parse_pigment_item(p, entry);
         return entry;
     });
@@ -138,67 +138,6 @@ ColorMap parse_color_map(Parser& p) {
     std::stable_sort(map.stops.begin(), map.stops.end(),
                      [](const ColorStop& a, const ColorStop& b) { return a.position < b.position; });
     return map;
-}
-
-ImagePattern parse_image_map(Parser& p) {
-    ImagePattern image;
-    image.interpolate = false; // POV-Ray's default is the nearest pixel
-    image.as_stored = p.scene.povray && (!p.in.version_said || p.in.version < 3.7); // as POV-Ray 3.7 does
-    const Token opener = peek(p);
-    block(p, "image_map", [&] {
-        const Token word = peek(p);
-        if (at_string(p)) {
-            image.said_at = source_ref(p, word);
-            image.file = resolve_file(p, word, parse_string(p));
-            return;
-        }
-        switch (keyword_of(word)) {
-        case "png"_kw:
-        case "jpeg"_kw:
-        case "gif"_kw:
-        case "tga"_kw:
-        case "tiff"_kw:
-        case "ppm"_kw:
-        case "pgm"_kw:
-        case "exr"_kw:
-        case "hdr"_kw:
-        case "iff"_kw:
-        case "sys"_kw:
-            next(p);
-            return; // the file itself says what it is
-        case "map_type"_kw: {
-            next(p);
-            const int type = parse_int(p, 0, 7, "`map_type`");
-            if (type != 0 && type != 1 && type != 2 && type != 5)
-                fail(p, word, "`map_type` is 0 (planar), 1 (spherical), 2 (cylindrical) or 5 (torus)");
-            image.map_type = static_cast<ImageMapType>(type);
-            return;
-        }
-        case "once"_kw:
-            next(p), image.once = true;
-            return;
-        case "interpolate"_kw:
-            next(p), image.interpolate = parse_int(p, 0, 4, "`interpolate`") != 0;
-            return;
-        case "use_color"_kw:
-        case "premultiplied"_kw:
-            next(p), parse_optional_bool(p);
-            return;
-        case "gamma"_kw:
-        case "filter"_kw:
-        case "transmit"_kw:
-        case "use_index"_kw:
-        case "use_alpha"_kw:
-            warn_unsupported(p, next(p), token_text(p, word, false), "the picture's own values are used");
-            accept(p, "all"_kw);
-            while (at_expression(p)) parse_float(p), accept_comma(p);
-            return;
-        default:
-            unexpected(p, "image_map", {"png"_kw, "jpeg"_kw, "map_type"_kw, "once"_kw, "interpolate"_kw});
-        }
-    });
-    if (image.file.empty()) fail(p, opener, "`image_map` needs a picture, such as \"wood.png\"");
-    return image;
 }
 
 } // namespace pnr

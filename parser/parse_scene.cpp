@@ -26,8 +26,8 @@ void start_povray(Parser& p) {
 }
 
 bool is_black(const Texture& texture) {
-    if (!is_plain(texture) || texture.layers.size() > 1) return false;
-    const Pigment& pigment = texture.layers.front().pigment;
+    if (!is_plain(texture) || !texture.upper.empty()) return false;
+    const Pigment& pigment = texture.pigment;
     return std::holds_alternative<UniformPattern>(pigment.pattern.kind) &&
            pnr::is_black(pigment.map.front().color.rgb) &&
            pigment.map.front().color.filter + pigment.map.front().color.transmit == 0;
@@ -166,10 +166,10 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
         return parse_layers(p);
     case "pigment"_kw:
         next(p);
-        return parse_pigment(p, p.default_texture.layers.back().pigment);
+        return parse_pigment(p, top_layer(p.default_texture).pigment);
     case "finish"_kw:
         next(p);
-        return parse_finish(p, p.default_texture.layers.back().finish);
+        return parse_finish(p, top_layer(p.default_texture).finish);
     case "interior"_kw:
         next(p);
         return parse_interior(p, Interior{});
@@ -181,7 +181,7 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
         return parse_color_map(p);
     case "normal"_kw:
         next(p);
-        return parse_normal(p, p.default_texture.layers.back().normal.value_or(Normal{}));
+        return parse_normal(p, top_layer(p.default_texture).normal.value_or(Normal{}));
     case "normal_map"_kw:
         next(p);
         return parse_normal_map(p);
@@ -237,7 +237,7 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
 void parse_default_block(Parser& p) {
     while (!at(p, '}') && !at_end(p)) {
         Texture& texture = p.default_texture;
-        TextureLayer& layer = texture.layers.back();
+        TextureLayer& layer = top_layer(texture);
         if (accept(p, "texture"_kw))
             texture = parse_texture(p, texture);
         else if (accept(p, "pigment"_kw))

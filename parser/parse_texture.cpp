@@ -69,21 +69,24 @@ bool parse_texture_pattern(Parser& p, Texture& texture) {
     return parse_pattern(p, texture.pattern, read_list) || parse_pattern_modifier(p, texture.pattern);
 }
 
+void map_by_uv(TextureLayer& layer) {
+    layer.pigment.pattern.uv_mapping = true;
+    if (layer.normal) layer.normal->pattern.uv_mapping = true;
+}
+
 // Without a map, `checker` and the like show two plain textures of #default, as good as one.
 void finish_texture(Texture& texture, bool uv_mapping) {
     if (texture.textures.empty()) texture.pattern = {};
     if (!uv_mapping) return;
     texture.pattern.uv_mapping = true;
-    for (TextureLayer& layer : texture.layers) {
-        layer.pigment.pattern.uv_mapping = true;
-        if (layer.normal) layer.normal->pattern.uv_mapping = true;
-    }
+    map_by_uv(texture);
+    for (TextureLayer& layer : texture.upper) map_by_uv(layer);
 }
 
 } // namespace
 
 void parse_texture_item(Parser& p, Texture& texture) {
-    TextureLayer& top = texture.layers.back();
+    TextureLayer& top = top_layer(texture);
     if (const auto* declared = accept_declared<Texture>(p))
         texture = *declared;
     else if (accept(p, "pigment"_kw))
@@ -131,7 +134,8 @@ void add_layer(Parser& p, Texture& below, const Texture& texture, bool layered) 
         below = texture;
         return;
     }
-    below.layers.insert(below.layers.end(), texture.layers.begin(), texture.layers.end());
+    below.upper.push_back(texture);
+    below.upper.insert(below.upper.end(), texture.upper.begin(), texture.upper.end());
 }
 
 SaidMaterial parse_material(Parser& p) {

@@ -174,10 +174,10 @@ TEST(ParseObject, WhatWeLackIsNamedAndSkipped) {
     const std::string all =
         diagnostics_of("blob { threshold 0.5 sphere { 0, 1, 1 } pigment { rgb 1 } } fog { distance 3 }" +
                        std::string("sphere { 0, 1") + paint +
-                       "normal { bumps 0.4 scale 2 } } light_source { y, 1 } camera { }");
+                       "interior { media { } } } light_source { y, 1 } camera { }");
     EXPECT_TRUE(says(all, "warning: `blob` is not supported"));
     EXPECT_TRUE(says(all, "warning: `fog` is not supported"));
-    EXPECT_TRUE(says(all, "warning: `normal` is not supported"));
+    EXPECT_TRUE(says(all, "warning: `media` is not supported"));
     EXPECT_FALSE(says(all, "error"));
 }
 

@@ -103,22 +103,124 @@ TEST(ParseTexture, DeclaredTexturesAndMaterials) {
     EXPECT_EQ(scene.objects[1].texture->finish.specular, 1);
 }
 
-TEST(ParseTexture, DeclaredLayersKeepTheLowestUnlessItIsHidden) {
+TEST(ParseTexture, DeclaredLayersLieOnEachOther) {
     const Scene scene = scene_of(R"(
         #declare Stained = texture { pigment { rgb <1, 0, 0> } } texture { pigment { rgbt <0, 0, 0, 0.9> } }
         #declare Covered = texture { pigment { rgb <1, 0, 0> } } texture { pigment { rgb <0, 1, 0> } }
         sphere { 0, 1 texture { Stained } }
         sphere { 0, 1 texture { Covered } })");
-    EXPECT_EQ(scene.objects[0].texture->pigment.map[0].color.rgb, Color(1, 0, 0));
-    EXPECT_EQ(scene.objects[1].texture->pigment.map[0].color.rgb, Color(0, 1, 0));
+    for (const Object& object : scene.objects) {
+        EXPECT_EQ(object.texture->pigment.map[0].color.rgb, Color(1, 0, 0));
+        ASSERT_EQ(object.texture->upper.size(), 1u);
+    }
+    EXPECT_EQ(scene.objects[0].texture->upper[0].pigment.map[0].color.transmit, 0.9f);
+    EXPECT_EQ(scene.objects[1].texture->upper[0].pigment.map[0].color.rgb, Color(0, 1, 0));
+}
+
+TEST(ParseTexture, AnObjectsSecondTextureLiesOnTheFirst) {
+    const Scene scene = scene_of(R"(
+        #declare Ball = sphere { 0, 1 pigment { rgb 1 } }
+        object { Ball texture { pigment { rgbt <0, 0, 1, 0.5> } } texture { pigment { rgbt <0, 1, 0, 0.7> } finish { phong 1 } } finish { phong 0.5 } }
+        object { Ball pigment { rgb <1, 0, 0> } })");
+    const Texture& layered = *scene.objects[0].texture;
+    EXPECT_EQ(layered.pigment.map[0].color.rgb, Color(1));
+    ASSERT_EQ(layered.upper.size(), 2u);
+    EXPECT_EQ(layered.upper[0].pigment.map[0].color.rgb, Color(0, 0, 1));
+    EXPECT_EQ(layered.upper[1].finish.phong, 0.5); // the object's own words change the uppermost
+    EXPECT_TRUE(scene.objects[1].texture->upper.empty());
+    EXPECT_EQ(scene.objects[1].texture->pigment.map[0].color.rgb, Color(1, 0, 0));
+}
+
+TEST(ParseTexture, PatternsOfTextures) {
+    const Texture squares = texture_of("texture { checker texture { pigment { rgb <1, 0, 0> } } texture { pigment { rgb <0, 1, 0> } } scale 2 }");
+    ASSERT_EQ(squares.textures.size(), 2u);
+    EXPECT_TRUE(std::holds_alternative<CheckerPattern>(squares.pattern.kind));
+    EXPECT_EQ(squares.textures[1].value.pigment.map[0].color.rgb, Color(0, 1, 0));
+    expect_near(transform_point(squares.pattern.transform.matrix, Vec3(1)), Vec3(2));
+    // tiles { A tile2 B } has B in the cell at the origin, as POV-Ray shows it.
+    const Texture tiles = texture_of("texture { tiles { texture { pigment { rgb <1, 0, 0> } } tile2 texture { pigment { rgb <0, 1, 0> } } } }");
+    ASSERT_EQ(tiles.textures.size(), 2u);
+    EXPECT_EQ(tiles.textures[0].value.pigment.map[0].color.rgb, Color(0, 1, 0));
+    const Scene scene = scene_of(R"(
+        #declare Map = texture_map { [0.7 pigment { rgb 1 }] [0.2 pigment { rgb 0 } finish { phong 1 }] }
+        sphere { 0, 1 texture { gradient x texture_map { Map } } })");
+    const Texture& mapped = *scene.objects[0].texture;
+    ASSERT_EQ(mapped.textures.size(), 2u);
+    EXPECT_EQ(mapped.textures[0].position, 0.2);
+    EXPECT_EQ(mapped.textures[0].value.finish.phong, 1);
+}
+
+TEST(ParseTexture, InteriorTextureAndMaterial) {
+    const Scene scene = scene_of(R"(
+        sphere { 0, 1 pigment { rgb 1 } interior_texture { pigment { rgb <1, 0, 0> } } double_illuminate }
+        sphere { 0, 1 material { texture { pigment { rgb 1 } } interior_texture { pigment { gradient x } } scale 3 } })");
+    EXPECT_EQ(scene.objects[0].interior_texture->pigment.map[0].color.rgb, Color(1, 0, 0));
+    EXPECT_TRUE(scene.objects[0].double_illuminate);
+    expect_near(transform_point(scene.objects[1].interior_texture->pigment.pattern.transform.matrix, Vec3(1)), Vec3(3));
+}
+
+TEST(ParseNormal, KindsAndTheirAmounts) {
+    const auto normal_of = [](const std::string& items) {
+        return texture_of("pigment { rgb 1 } normal { " + items + " }").normal.value_or(Normal{});
+    };
+    EXPECT_EQ(normal_of("bumps").size, 0.5);
+    EXPECT_EQ(normal_of("bumps 0.3 scale 2").size, 0.3);
+    EXPECT_EQ(normal_of("gradient x, 0.3").size, 0.3);
+    const Normal n = normal_of("granite 0.3 bump_size 0.7 accuracy 0.01 no_bump_scale");
+    EXPECT_EQ(n.size, 0.7);
+    EXPECT_EQ(n.accuracy, 0.01);
+    EXPECT_FALSE(n.scale_bumps);
+    const Normal slopes = normal_of("gradient x slope_map { [0.5 <1, 0>] [0 <0, 2>] }");
+    ASSERT_EQ(slopes.slopes.size(), 2u);
+    EXPECT_EQ(slopes.slopes[0].slope, 2);
+    EXPECT_EQ(slopes.slopes[1].height, 1);
+    const Normal mapped = normal_of("gradient y normal_map { [0.2 bumps 0.4 scale 2] [0.9 ripples 0.6 frequency 3] }");
+    ASSERT_EQ(mapped.normals.size(), 2u);
+    EXPECT_EQ(mapped.normals[0].value.size, 0.4);
+    EXPECT_EQ(mapped.normals[1].value.pattern.frequency, 3);
+    EXPECT_EQ(normal_of("checker normal { bumps 1 } normal { dents 2 }").normals[1].value.size, 2);
+    EXPECT_TRUE(says(diagnostics_of("sphere { 0, 1 normal { bumpy 1 } }"), "bumps"));
+}
+
+TEST(ParseNormal, StandsInTexturesDefaultsAndDeclarations) {
+    const Scene scene = scene_of(R"(
+        #declare Rough = normal { bumps 0.8 }
+        #declare Paint = texture { pigment { rgb 1 } normal { Rough scale 3 } }
+        sphere { 0, 1 texture { Paint } scale 2 }
+        #default { normal { dents 0.2 } }
+        sphere { 0, 1 pigment { rgb 1 } })");
+    ASSERT_TRUE(scene.objects[0].texture->normal);
+    expect_near(transform_point(scene.objects[0].texture->normal->pattern.transform.matrix, Vec3(1)), Vec3(6));
+    ASSERT_TRUE(scene.objects[1].texture->normal);
+    EXPECT_EQ(scene.objects[1].texture->normal->size, 0.2);
+}
+
+// The shares that POV-Ray's pictures show: with `albedo` the highlight's peak grows with its sharpness.
+TEST(ParseFinish, AlbedosBecomePeaks) {
+    EXPECT_NEAR(finish_of("diffuse albedo 0.2 brilliance 5").diffuse, 0.6, 1e-12);
+    EXPECT_NEAR(finish_of("brilliance 5 diffuse albedo 0.2, 0.1").diffuse_back, 0.3, 1e-12);
+    EXPECT_NEAR(finish_of("phong albedo 0.05 phong_size 20").phong, 0.525, 1e-12);
+    EXPECT_NEAR(finish_of("specular albedo 0.1 roughness 0.1").specular, 0.1524, 1e-4);
+    EXPECT_NEAR(finish_of("specular albedo 0.1 roughness 1").specular, 0.0580, 1e-4);
+    EXPECT_EQ(finish_of("specular 0.1 roughness 0.1").specular, 0.1);
+}
+
+TEST(ParseFinish, GrainFilmAndBackSide) {
+    const Finish f = finish_of("diffuse 0.3, 0.7 crand 0.1 irid { 0.35 thickness 0.5 turbulence 0.2 }");
+    EXPECT_EQ(f.diffuse_back, 0.7);
+    EXPECT_EQ(f.crand, 0.1);
+    EXPECT_EQ(f.irid.amount, 0.35);
+    EXPECT_EQ(f.irid.thickness, 0.5);
+    EXPECT_EQ(f.irid.turbulence, 0.2);
 }
 
 TEST(ParseTexture, EntriesOfTextureMapsTakeWhatTexturesTake) {
     const Scene scene = scene_of(R"(
         #declare Red = pigment { rgb <1, 0, 0> }
         sphere { 0, 1 texture { average texture_map { [pigment { Red } finish { phong 1 } rotate x * 90] [1 pigment { Red }] } } })");
-    EXPECT_EQ(scene.objects[0].texture->pigment.map[0].color.rgb, Color(1, 0, 0));
-    EXPECT_EQ(scene.objects[0].texture->finish.phong, 1);
+    ASSERT_EQ(scene.objects[0].texture->textures.size(), 2u);
+    EXPECT_EQ(scene.objects[0].texture->textures[0].value.pigment.map[0].color.rgb, Color(1, 0, 0));
+    EXPECT_EQ(scene.objects[0].texture->textures[0].value.finish.phong, 1);
 }
 
 TEST(ColorsInc, NamesAndMacros) {
