@@ -474,4 +474,9 @@ bool inside_shape(const Shape& shape, Vec3 p) {
         shape);
 }
 
+bool has_endless_inside(const Shape& shape) {
+    if (const auto* quadric = std::get_if<Quadric>(&shape)) return has_endless_inside(*quadric);
+    return std::holds_alternative<Plane>(shape) || std::holds_alternative<Disc>(shape);
+}
+
 } // namespace pnr

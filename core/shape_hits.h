@@ -27,5 +27,8 @@ int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits);
 // half space against the normal; cylinders and cones end at their lids even where these are open; shapes without an
 // inside (Mesh and BicubicPatch here) have no such point. Points on the surface may be either.
 bool inside_shape(const Shape& shape, Vec3 p);
+// Whether there are points inside that lie outside of the shape's bounds: behind a plane, around an ellipsoid that is said
+// the other way round.
+bool has_endless_inside(const Shape& shape);
 
 } // namespace pnr

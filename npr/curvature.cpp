@@ -289,6 +289,22 @@ Implicit revolved_side(Vec3 base, Vec3 cap, double base_radius, double cap_radiu
             glm::dmat3(1.0) - (1 + slope * slope) * outer(axis, axis)};
 }
 
+// From the normals a little aside, where there is no formula. Across an edge there is no curvature.
+Implicit measured(const Shape& shape, Vec3 p, Vec3 normal) {
+    const Bounds box = shape_bounds(shape);
+    const double size = glm::length(box.high - box.low), step = 1e-4 * (std::isfinite(size) ? size : 1 + glm::length(p));
+    const Frame frame = make_frame(normal);
+    glm::dmat3 second(0.0);
+    for (const Vec3& aside : {frame.x, frame.y}) {
+        const auto a = surface_along(shape, p - step * aside, normal, step),
+                   b = surface_along(shape, p + step * aside, normal, step);
+        if (!a || !b || glm::dot(a->normal, b->normal) < 0.9) continue;
+        const Vec3 turn = (b->normal - a->normal) / (2 * step);
+        second += 0.5 * (outer(turn, aside) + outer(aside, turn));
+    }
+    return {normal, second};
+}
+
 Implicit implicit_of(const Shape& shape, Vec3 p, Vec3 normal) {
     if (const auto* s = std::get_if<Sphere>(&shape)) return {p - s->center, glm::dmat3(1.0)};
     if (const auto* c = std::get_if<Cylinder>(&shape))
@@ -302,7 +318,10 @@ Implicit implicit_of(const Shape& shape, Vec3 p, Vec3 normal) {
         return {(rho - t->major) * out + p.y * up,
                 outer(out, out) + outer(up, up) + (rho - t->major) / rho * outer(round, round)};
     }
-    return {normal, glm::dmat3(0.0)};
+    if (std::holds_alternative<Box>(shape) || std::holds_alternative<Plane>(shape) ||
+        std::holds_alternative<Disc>(shape))
+        return {normal, glm::dmat3(0.0)};
+    return measured(shape, p, normal);
 }
 
 // The shape operator of a level set, P H P / |g|, in world space: exact under any affine map.
