@@ -208,8 +208,11 @@ void intersect(const Ovus& s, const Ray& ray, HitList& hits) {
         const EggDistance at = egg_distance(egg, o + t * d);
         return ValueAndSlope{at.value, glm::dot(at.outwards, d)};
     };
+    const double middle = 0.5 * (box.low.y + box.high.y); // texture coordinates are angles as seen from there
     meet_convex(f, {0, span.leave - span.enter}, [&](double t) {
-        add_hit(hits, ray, t + shift, egg_distance(egg, o + t * d).outwards, Vec2(0), 1e-14 * size);
+        const Vec3 p = o + t * d;
+        const Vec2 uv(turn_about_y(p.x, p.z), 0.5 + std::atan2(p.y - middle, std::hypot(p.x, p.z)) / pi);
+        add_hit(hits, ray, t + shift, egg_distance(egg, p).outwards, uv, 1e-14 * size);
     });
 }
 

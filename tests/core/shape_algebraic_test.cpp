@@ -184,8 +184,15 @@ TEST(Ovus, IsPovrays) {
     };
     check(Ovus{1, 0.5}, egg);
     check(Ovus{0.5, 0.8}, top);
+    // What a pigment with uv_mapping shows at x = -0.1.
+    for (const auto& [y, u, v] :
+         {std::array{0.9, 0.728, 0.733}, {0.5, 0.732, 0.586}, {-0.1, 0.734, 0.392}, {-0.9, 0.713, 0.115}}) {
+        HitList hits;
+        ASSERT_EQ(intersect_shape(Ovus{1, 0.5}, {{-0.1, y, -10}, {0, 0, 1}, 0, infinity}, hits), 2);
+        EXPECT_NEAR(hits[0].uv.x, u, 2e-3);
+        EXPECT_NEAR(hits[0].uv.y, v, 2e-3);
+    }
     for (const Ovus& ovus : {Ovus{1, 0.5}, Ovus{0.5, 0.8}, Ovus{0.5, 1.2}, Ovus{1, 1}}) {
-        // The hull of its balls, whose meridian is the farthest of the three arcs along any direction.
         expect_solid({ovus, [&](Vec3 p) { return inside_shape(ovus, p); }});
     }
 }

@@ -103,6 +103,25 @@ TEST(Lathe, FlatAndNearlyFlatRaysMeetIt) {
         }
 }
 
+// What POV-Ray 3.7 shows of a pigment with uv_mapping on these, at x = -0.1.
+TEST(Lathe, HasPovraysTextureCoordinates) {
+    const Shape lathe =
+        make_lathe(SplineKind::linear, std::vector<Vec2>{{0.2, -1.5}, {1, -1}, {0.6, 0.5}, {1, 1.5}});
+    const Shape sor = make_sor(std::vector<Vec2>{{0.2, -1.6}, {1, -1}, {0.6, 0.5}, {1, 1.2}, {1, 1.6}});
+    const double rows[][5] = {{0.9, 0.729, 0.8, 0.731, 0.786},
+                              {-0.1, 0.729, 0.533, 0.730, 0.3},
+                              {-0.9, 0.734, 0.356, 0.734, 0.033}};
+    for (const auto& [y, lathe_u, lathe_v, sor_u, sor_v] : rows) {
+        HitList hits;
+        ASSERT_EQ(intersect_shape(lathe, {{-0.1, y, -10}, {0, 0, 1}, 0, infinity}, hits), 2);
+        EXPECT_NEAR(hits[0].uv.x, lathe_u, 1e-3);
+        EXPECT_NEAR(hits[0].uv.y, lathe_v, 1e-3);
+        ASSERT_EQ(intersect_shape(sor, {{-0.1, y, -10}, {0, 0, 1}, 0, infinity}, hits), 2);
+        EXPECT_NEAR(hits[0].uv.x, sor_u, 1e-3);
+        EXPECT_NEAR(hits[0].uv.y, sor_v, 1e-3);
+    }
+}
+
 TEST(Sor, HasTheManualsCubics) {
     const std::vector<Vec2> p = {{0, -1.5}, {0.5, -1}, {0.8, -0.4}, {0.3, 0.3}, {0.5, 0.9}, {0.7, 1.3}};
     // r^2 = A h^3 + B h^2 + C h + D between two points, from the values and slopes at both.
