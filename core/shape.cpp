@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/polynomial.h"
 #include "core/shape_algebraic.h"
 #include "core/shape_swept.h"
 
@@ -279,38 +280,6 @@ struct TorusAlongRay {
     }
 };
 
-// The roots in [low, high] of f, given those of its derivative: f is monotone between them, so each sign
-// change is closed in by bisection with Newton steps [the classic safeguarded scheme, e.g. Press et al.
-// 2007, 9.4].
-template <class F, class D>
-int roots_between(const double* critical, int critical_count, double low, double high, F f, D derivative,
-                  double* roots) {
-    int count = 0;
-    double a = low, fa = f(a);
-    for (int i = 0; i <= critical_count; ++i) {
-        const double b = i < critical_count ? std::clamp(critical[i], low, high) : high;
-        const double fb = f(b);
-        if (b > a && (fa < 0) != (fb < 0)) {
-            double x0 = a, x1 = b, x = 0.5 * (a + b);
-            for (int step = 0; step < 100; ++step) {
-                const double fx = f(x);
-                ((fx < 0) == (fa < 0) ? x0 : x1) = x;
-                const double slope = derivative(x);
-                double next = slope != 0 ? x - fx / slope : x0;
-                if (!(next > x0 && next < x1)) next = 0.5 * (x0 + x1);
-                if (next == x || x1 - x0 <= 0) break;
-                const double moved = std::abs(next - x);
-                x = next;
-                if (moved <= 1e-16 * std::abs(x)) break;
-            }
-            roots[count++] = x;
-        }
-        a = b;
-        fa = fb;
-    }
-    return count;
-}
-
 void intersect_torus(const Torus& torus, Hits& out) {
     const double speed = glm::length(out.ray.direction);
     const double outer = torus.major + std::abs(torus.minor);
@@ -326,17 +295,14 @@ void intersect_torus(const Torus& torus, Hits& out) {
     const double reach = std::sqrt(reach2) * (1 + 1e-12);
     const double k = glm::dot(f.o, f.o) + f.major * f.major - f.minor * f.minor, od = glm::dot(f.o, f.d);
     const double m4 = 4 * f.major * f.major;
-    const double c3 = 4 * od, c2 = 2 * k + 4 * od * od - m4 * (f.d.x * f.d.x + f.d.z * f.d.z),
-                 c1 = 4 * k * od - 2 * m4 * (f.o.x * f.d.x + f.o.z * f.d.z);
-    const auto first = [&](double t) { return ((4 * t + 3 * c3) * t + 2 * c2) * t + c1; };
-    const auto second = [&](double t) { return (12 * t + 6 * c3) * t + 2 * c2; };
-    const Roots inflections = quadratic_roots(12, 3 * c3, 2 * c2, 9 * c3 * c3 - 24 * c2);
-    const double bends[2] = {inflections.low, inflections.high};
-    double critical[3], roots[4];
-    const int critical_count =
-        roots_between(bends, inflections.count, -reach, reach, first, second, critical);
-    const int count = roots_between(
-        critical, critical_count, -reach, reach, [&](double t) { return f.value(t); }, first, roots);
+    const double c[5] = {f.value(0), 4 * k * od - 2 * m4 * (f.o.x * f.d.x + f.o.z * f.d.z),
+                         2 * k + 4 * od * od - m4 * (f.d.x * f.d.x + f.d.z * f.d.z), 4 * od, 1};
+    const auto slope = [&](double t) { return glm::dot(f.gradient(f.o + t * f.d), f.d); };
+    double roots[4];
+    const int count = real_roots(c, -reach, reach, roots);
+    for (int i = 0; i < count; ++i)
+        roots[i] = polish(
+            roots[i], [&](double t) { return f.value(t); }, slope);
     for (int i = 0; i < count; ++i) {
         const Vec3 p = f.o + roots[i] * f.d;
         const double q = std::hypot(p.x, p.z) - f.major;
@@ -444,15 +410,15 @@ int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits) {
 bool inside_shape(const Shape& shape, Vec3 p) {
     return std::visit(
         Overload{
-            [&](const Sphere& s) {
-                return glm::dot(p - s.center, p - s.center) <= s.radius * s.radius;
-            },
+            [&](const Sphere& s) { return glm::dot(p - s.center, p - s.center) <= s.radius * s.radius; },
             [&](const Box& b) {
                 const Vec3 low = glm::min(b.low, b.high), high = glm::max(b.low, b.high);
                 return glm::all(glm::lessThanEqual(low, p)) && glm::all(glm::lessThanEqual(p, high));
             },
             [&](const Plane& s) { return glm::dot(s.normal, p) <= s.distance; },
-            [&](const Cylinder& c) { return inside_cone({c.base, c.cap, c.radius, c.radius, c.open}, p); },
+            [&](const Cylinder& c) {
+                return inside_cone({c.base, c.cap, c.radius, c.radius, c.open}, p);
+            },
             [&](const Cone& c) { return inside_cone(c, p); },
             [&](const Torus& t) {
                 return std::hypot(std::hypot(p.x, p.z) - t.major, p.y) <= std::abs(t.minor);
