@@ -137,7 +137,7 @@ TEST(ParseSwept, TextIsSetAsInPovray) {
     EXPECT_NEAR(width("timrom.ttf", "AVAT", "0"), 2.384, 1e-4);
     EXPECT_NEAR(width("timrom.ttf", "A A", "0"), 1.74, 1e-4);
     EXPECT_NEAR(width("timrom.ttf", "AA", "<0.1, 0.2>"), 1.586, 1e-4);
-    EXPECT_NEAR(width("cyrvetic.ttf", "Hel", "0"), 1.329, 1e-4);
+    EXPECT_NEAR(width("cyrvetic", "Hel", "<0, 0, 0>"), 1.329, 1e-4) << "without the ending of its name";
     EXPECT_NEAR(width("cyrvetic.ttf", "llll", "0"), 0.78, 1e-4);
     EXPECT_NEAR(width("crystal.ttf", "Hello World", "0"), 5.561, 1e-4);
     EXPECT_NEAR(width("povlogo.ttf", "P", "0"), 0.66992, 1e-4);
