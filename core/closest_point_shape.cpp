@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/closest_point.h"
+#include "core/closest_point_field.h"
 
 #include <algorithm>
 #include <cmath>
@@ -112,6 +112,8 @@ ClosestPoint closest_point_on_shape(const Shape& shape, Vec3 p) {
         const Revolution r(d->center, d->normal, p);
         return r.lift({std::clamp(r.query.x, d->hole, d->radius), 0}, {0, 1}, p);
     }
+    if (!std::holds_alternative<Mesh>(shape) && !std::holds_alternative<BicubicPatch>(shape))
+        return closest_point_by_rays(shape, p);
     return {};
 }
 

@@ -126,6 +126,15 @@ struct Stretch {
     }
 };
 
+// Where POV-Ray lays the faces out: a band of the four sides, the lid over and the bottom under the second of them.
+Vec2 box_uv(Vec3 p, Vec3 outward) { // p: shares of the box's edges
+    if (outward.x < 0) return {0.25 * p.z, (1 + p.y) / 3};
+    if (outward.z > 0) return {0.25 + 0.25 * p.x, (1 + p.y) / 3};
+    if (outward.x > 0) return {0.75 - 0.25 * p.z, (1 + p.y) / 3};
+    if (outward.z < 0) return {1 - 0.25 * p.x, (1 + p.y) / 3};
+    return {0.25 + 0.25 * p.x, outward.y > 0 ? 1 - p.z / 3 : p.z / 3};
+}
+
 void intersect_box(const Box& box, Hits& out) {
     const Vec3 low = glm::min(box.low, box.high), high = glm::max(box.low, box.high);
     Stretch inside;
@@ -134,7 +143,13 @@ void intersect_box(const Box& box, Hits& out) {
         n[axis] = 1;
         if (!inside.cut_slab(out.ray.origin[axis], out.ray.direction[axis], low[axis], high[axis], n)) return;
     }
-    inside.add_to(out);
+    if (inside.empty()) return;
+    const auto add = [&](double t, Vec3 normal) {
+        const Vec3 p = out.ray.origin + t * out.ray.direction;
+        out.add(t, normal, box_uv(glm::clamp((p - low) / (high - low), 0.0, 1.0), normal));
+    };
+    add(inside.enter, inside.enter_normal);
+    add(inside.leave, inside.leave_normal);
 }
 
 void intersect_plane(const Plane& p, Hits& out) {
@@ -170,11 +185,6 @@ struct ConeSide {
     Vec3 normal(double t) const {
         const Vec3 n = o + t * d - radius(t) * slope * axis;
         return n == Vec3(0) ? (slope < 0 ? axis : -axis) : n; // the apex
-    }
-    Vec2 uv(double t, double height) const {
-        const Frame frame = make_frame(axis);
-        const Vec3 p = o + t * d;
-        return {turn_of(glm::dot(p, frame.x), glm::dot(p, frame.y)), (oz + t * dz) / height};
     }
 };
 
@@ -242,7 +252,7 @@ void intersect_cone(const Cone& cone, Hits& out) {
             i == 0 ? roots.low : roots.high, [&](double x) { return s.value(x); },
             [&](double x) { return s.derivative(x); });
         const double z = s.oz + t * s.dz;
-        if (z >= 0 && z <= height) out.add(t, s.normal(t), s.uv(t, height));
+        if (z >= 0 && z <= height) out.add(t, s.normal(t));
     }
 }
 
@@ -339,7 +349,8 @@ void intersect_torus(const Torus& torus, Hits& out) {
     for (int i = 0; i < count; ++i) {
         const Vec3 p = f.o + roots[i] * f.d;
         const double q = std::hypot(p.x, p.z) - f.major;
-        out.add((nearest + roots[i] * outer) / speed, f.gradient(p), {turn_of(p.x, p.z), turn_of(q, p.y)});
+        const double around = turn_of(-p.x, p.z), across = turn_of(-q, -p.y); // from the far sides, as POV-Ray has it
+        out.add((nearest + roots[i] * outer) / speed, f.gradient(p), {around, across});
     }
 }
 
@@ -423,6 +434,12 @@ int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits, int enoug
                },
                shape);
     return static_cast<int>(hits.size());
+}
+
+bool has_uv(const Shape& shape) {
+    if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->data && !mesh->data->uvs.empty();
+    return std::holds_alternative<Sphere>(shape) || std::holds_alternative<Box>(shape) ||
+           std::holds_alternative<Torus>(shape);
 }
 
 bool inside_shape(const Shape& shape, Vec3 p) {

@@ -517,7 +517,11 @@ World build_world(const Scene& scene, const Settings& settings) {
 // -----------------------------------------------------------------------------------------------------
 
 std::optional<Hit> closest_hit(const World& world, const Ray& ray, RayKind kind) {
-    return closest_hit(*world.geometry, ray, kind);
+    std::optional<Hit> hit = closest_hit(*world.geometry, ray, kind);
+    if (!hit) return hit;
+    const Shape* shape = std::get_if<Shape>(&geometry_items(*world.geometry)[hit->leaf].form);
+    if (!shape || !has_uv(*shape)) hit->uv = Vec2(hit->position + world.offset);
+    return hit;
 }
 
 bool is_occluded(const World& world, const Ray& ray, RayKind kind) {
