@@ -39,7 +39,7 @@ constexpr std::array<InternalFunction, 79> table{{
     {"f_helix2", 10, curve_helix2},
     {"f_hex_x", 4, shape_hex_x},
     {"f_hex_y", 4, shape_hex_y},
-    {"f_hetero_mf", 9, nullptr},
+    {"f_hetero_mf", 9, noise_hetero_mf},
     {"f_hunt_surface", 4, algebraic_hunt_surface},
     {"f_hyperbolic_torus", 6, algebraic_hyperbolic_torus},
     {"f_isect_ellipsoids", 7, shape_isect_ellipsoids},
@@ -68,8 +68,8 @@ constexpr std::array<InternalFunction, 79> table{{
     {"f_quartic_saddle", 4, algebraic_quartic_saddle},
     {"f_quartic_cylinder", 6, algebraic_quartic_cylinder},
     {"f_r", 3, shape_r},
-    {"f_ridge", 9, nullptr},
-    {"f_ridged_mf", 9, nullptr},
+    {"f_ridge", 9, noise_ridge},
+    {"f_ridged_mf", 9, noise_ridged_mf},
     {"f_rounded_box", 7, shape_rounded_box},
     {"f_sphere", 4, shape_sphere},
     {"f_spikes", 8, shape_spikes},
@@ -86,9 +86,9 @@ constexpr std::array<InternalFunction, 79> table{{
     {"f_umbrella", 4, algebraic_umbrella},
     {"f_witch_of_agnesi", 5, algebraic_witch_of_agnesi},
     {"f_witch_of_agnesi_2d", 9, curve_witch_of_agnesi},
-    {"f_noise3d", 3, nullptr},
+    {"f_noise3d", 3, nullptr}, // f_noise_generator with the scene's own: the parser knows it
     {"", 0, nullptr}, // POV-Ray's own, for patterns
-    {"f_noise_generator", 4, nullptr},
+    {"f_noise_generator", 4, noise_noise_generator},
 }};
 
 } // namespace

@@ -96,7 +96,6 @@ double shape_torus(const double* a);
 double noise_hetero_mf(const double* a);
 double noise_ridge(const double* a);
 double noise_ridged_mf(const double* a);
-double noise_noise3d(const double* a);
 double noise_noise_generator(const double* a);
 
 } // namespace pnr

@@ -14,6 +14,9 @@ namespace pnr {
 
 namespace {
 
+constexpr std::size_t noise3d = 76, noise_generator = 78; // internal functions by number
+constexpr int scene_noise_generator = 2;
+
 // `internal(N)`: the function of POV-Ray's number N.
 void parse_internal(Parser& p, Function& function) {
     next(p);
@@ -23,16 +26,20 @@ void parse_internal(Parser& p, Function& function) {
     expect(p, ')', "to close `internal(`");
     const auto all = internal_functions();
     const bool exists = number >= 0 && number < static_cast<double>(all.size()) && number == std::trunc(number);
-    const auto index = exists ? static_cast<std::size_t>(number) : 0;
+    std::size_t index = exists ? static_cast<std::size_t>(number) : 0;
     if (!exists || all[index].name.empty())
         fail(p, at_number, fmt::format("there is no internal function {}", number));
-    if (!all[index].evaluate) function.unsupported = fmt::format("{}", all[index].name);
     function.parameters = all[index].parameters;
     for (int i = 0; i < function.parameters; ++i)
         function.code.push_back({.kind = Instruction::Kind::argument, .index = static_cast<std::uint32_t>(i)});
+    if (index == noise3d) { // the noise that counts in the scene
+        function.code.push_back({.value = scene_noise_generator});
+        index = noise_generator;
+    }
+    if (!all[index].evaluate) function.unsupported = fmt::format("{}", all[index].name);
     function.code.push_back(
         {.kind = Instruction::Kind::internal, .index = static_cast<std::uint32_t>(index)});
-    function.stack = function.parameters;
+    function.stack = all[index].parameters;
     function.cost = 20;
 }
 
@@ -56,7 +63,7 @@ void parse_pigment_function(Parser& p, Function& function) {
     function.cost = 50;
     auto pigment = std::make_shared<const Pigment>(parse_pigment(p, Pigment{}));
     function.native = [pigment = std::move(pigment)](const double* a, double* results) {
-        const ColorFT color = eval_pigment(*pigment, Vec3(a[0], a[1], a[2]), Vec2(a[0], a[1]));
+        const ColorFT color = eval_pigment(*pigment, {Vec3(a[0], a[1], a[2]), Vec2(a[0], a[1])});
         for (int i = 0; i < 3; ++i) results[i] = color.rgb[i];
         results[3] = color.filter;
         results[4] = color.transmit;
