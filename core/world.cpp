@@ -199,6 +199,7 @@ const char* group_name(Combination combination) {
 // What a child gets from its parents where it says nothing itself.
 struct Inherited {
     const Texture* texture = nullptr;
+    const Texture* interior_texture = nullptr;
     const Interior* interior = nullptr;
     const PhotonRoles* photons = nullptr;
     const PaintWord* npr = nullptr;
@@ -207,6 +208,7 @@ struct Inherited {
     int object = 0;
     bool cutaway = false;
     bool unseen = false; // clips: they have no surface
+    bool double_illuminate = false;
     bool no_shadow = false, no_image = false, no_reflection = false;
 };
 
@@ -217,6 +219,7 @@ struct Builder {
     std::vector<GeometryItem> items; // in scene space until the offset is known
     std::vector<CsgNode> solids{};
     std::vector<Surface> parts{}; // of shapes with textures of their own; they come behind the items' surfaces
+    std::map<const Interior*, int> interior_ids{};
 
     int number_object(const Object& object, const PaintWord* word) {
         WorldObject entry;
@@ -229,18 +232,26 @@ struct Builder {
     }
 
     int add_material(const Inherited& from) {
-        if (!from.texture && !from.interior && !from.photons) return 0;
+        if (!from.texture && !from.interior_texture && !from.interior && !from.photons) return 0;
         Material material;
-        if (from.texture) {
-            material.pigment = from.texture->pigment;
-            material.finish = from.texture->finish;
+        if (from.texture) material.texture = *from.texture;
+        if (from.interior_texture) material.interior_texture = *from.interior_texture;
+        if (from.interior) {
+            material.interior = *from.interior;
+            material.interior_id =
+                interior_ids.try_emplace(from.interior, static_cast<int>(interior_ids.size()) + 1).first->second;
         }
-        if (from.interior) material.interior = *from.interior;
+        material.double_illuminate = from.double_illuminate;
         if (from.photons) material.photons = *from.photons;
-        if (auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern.kind))
-            picture->image = assets.image(*picture, scene.assumed_gamma);
+        for (Texture* texture : {&material.texture, material.interior_texture ? &*material.interior_texture : nullptr})
+            if (texture) for_each_pattern(*texture, [&](Pattern& pattern) { prepare_pattern(pattern); });
         world.materials.push_back(std::move(material));
         return static_cast<int>(world.materials.size()) - 1;
+    }
+
+    void prepare_pattern(Pattern& pattern) {
+        if (auto* picture = std::get_if<ImagePattern>(&pattern.kind))
+            picture->image = assets.image(*picture, scene.assumed_gamma);
     }
 
     void add_item(GeometryItem item, Surface surface) {
@@ -255,6 +266,7 @@ struct Builder {
     Inherited inherit(const Object& object, Inherited from, bool top) {
         require(is_finite(object.transform), object.said_at, "a transform is not finite");
         if (object.texture) from.texture = &*object.texture;
+        if (object.interior_texture) from.interior_texture = &*object.interior_texture;
         if (object.interior) from.interior = &*object.interior;
         if (object.photons) from.photons = &*object.photons;
         if (object.npr) from.npr = &*object.npr;
@@ -262,6 +274,7 @@ struct Builder {
         from.no_shadow |= object.no_shadow;
         from.no_image |= object.no_image;
         from.no_reflection |= object.no_reflection;
+        from.double_illuminate |= object.double_illuminate;
         from.cutaway |= object.cutaway_textures;
         for (const Object& bound : object.bounds) from.limits = common(from.limits, object_bounds(bound));
         return from;
@@ -383,7 +396,7 @@ struct Builder {
     std::uint32_t add_parts(const PartTextures& textures, Inherited from, const Transform& to_scene, Surface surface) {
         const auto first = static_cast<std::uint32_t>(parts.size());
         for (Texture texture : textures.list) {
-            texture.pigment.transform = then(texture.pigment.transform, to_scene);
+            transform_texture(texture, to_scene);
             from.texture = &texture;
             surface.material = add_material(from);
             parts.push_back(surface);
@@ -449,8 +462,10 @@ void Builder::move_to_center() {
         item.to_world = then(item.to_world, move);
         item.limits = {item.limits.low - world.offset, item.limits.high - world.offset};
     }
-    for (Material& material : world.materials)
-        transform_pigment(material.pigment, move);
+    for (Material& material : world.materials) {
+        transform_texture(material.texture, move);
+        if (material.interior_texture) transform_texture(*material.interior_texture, move);
+    }
     for (WorldObject& object : world.objects) {
         object.paint.field_point -= world.offset;
         for (Seed& seed : object.paint.seeds) seed.position -= world.offset;
@@ -504,6 +519,7 @@ World build_world(const Scene& scene, const Settings& settings) {
     builder.find_object_bounds(seen_bounds(builder.items, builder.solids));
     world.background = scene.background;
     world.ambient_light = scene.ambient_light;
+    world.irid_wavelength = scene.irid_wavelength;
     world.has_paint =
         std::any_of(world.objects.begin(), world.objects.end(), [](const WorldObject& o) { return o.npr; });
     world.has_specular = std::any_of(world.materials.begin(), world.materials.end(), is_specular);

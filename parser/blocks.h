@@ -54,6 +54,13 @@ Shape parse_parametric(Parser& p);
 // -------------------------------------------------------------------------------------------------
 
 Texture parse_texture(Parser& p, const Texture& start);
+void parse_texture_item(Parser& p, Texture& texture); // one item of the block; at least one token is taken
+BlendMap<Texture> parse_texture_map(Parser& p);
+// Lays a texture over what is there; replaces it if not `layered`, or where one of them can't be layered.
+void add_layer(Parser& p, Texture& below, const Texture& texture, bool layered);
+Normal parse_normal(Parser& p, const Normal& start);
+BlendMap<Normal> parse_normal_map(Parser& p);
+SlopeMap parse_slope_map(Parser& p);
 Pigment parse_pigment(Parser& p, const Pigment& start);
 void parse_pigment_item(Parser& p, Pigment& pigment); // one item of the block; at least one token is taken
 Finish parse_finish(Parser& p, const Finish& start);

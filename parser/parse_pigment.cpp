@@ -37,7 +37,7 @@ void parse_pigment_list(Parser& p, Pigment& pigment, const Pattern& pattern) {
     bool plain_only = true;
     while (pigments.size() < colors.size() && (at_color_expression(p) || at(p, "pigment"_kw))) {
         if (accept(p, "pigment"_kw)) {
-            pigments.push_back(parse_pigment(p, p.default_texture.pigment));
+            pigments.push_back(parse_pigment(p, p.default_texture.layers.back().pigment));
             plain_only = false;
         } else {
             colors[pigments.size()] = parse_color(p);
@@ -101,7 +101,7 @@ Pigment parse_pigment(Parser& p, const Pigment& start) {
 
 BlendMap<Pigment> parse_pigment_map(Parser& p) {
     return parse_blend_map<Pigment>(p, "pigment_map", [&] {
-        Pigment entry = p.default_texture.pigment;
+        Pigment entry = p.default_texture.layers.back().pigment;
         while (!at(p, ']') && !at(p, '}')) parse_pigment_item(p, entry);
         return entry;
     });
