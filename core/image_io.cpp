@@ -3,10 +3,9 @@
 
 #include "core/atomic_file.h"
 #include "core/image_module.h"
+#include "core/module.h"
 
 #include <cmath>
-#include <cstdlib>
-#include <dlfcn.h>
 
 namespace pnr {
 
@@ -14,36 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where the module may lie, first choice first: the environment's word alone if it is there, else beside the
-// program in a build folder or an installation.
-std::vector<fs::path> module_places() {
-    if (const char* named = std::getenv("PNR_IMAGE_MODULE")) return {named};
-    std::error_code error;
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    if (error) return {"libpnr_image.so"};
-    const fs::path root = program.parent_path().parent_path();
-    return {root / "lib" / "libpnr_image.so", root / "lib" / "pnr" / "libpnr_image.so"};
-}
-
-const ImageModule& open_module() {
-    std::string reasons;
-    for (const fs::path& place : module_places()) {
-        void* library = ::dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
-        if (library == nullptr) {
-            reasons += std::string("\n  ") + ::dlerror();
-            continue;
-        }
-        const auto get = reinterpret_cast<const ImageModule* (*)()>(::dlsym(library, image_module_symbol));
-        if (get != nullptr && get()->version == image_module_version) return *get();
-        reasons += "\n  " + place.string() + ": of another version of pnr";
-    }
-    throw FileError("cannot open the image module (PNR_IMAGE_MODULE can name it):" + reasons);
-}
-
 // Opened at the first picture and kept: the image library must not be unloaded under its own threads. After a
 // failure the next picture tries again.
 const ImageModule& image_module() {
-    static const ImageModule& module = open_module();
+    static const auto& module = *static_cast<const ImageModule*>(open_module(
+        {"image", "libpnr_image.so", "PNR_IMAGE_MODULE", image_module_symbol, image_module_version}));
     return module;
 }
 

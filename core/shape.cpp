@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/shape_field.h"
+#include "core/shape_algebraic.h"
+#include "core/shape_swept.h"
 
 #include <algorithm>
 #include <cmath>
@@ -387,6 +389,16 @@ Bounds shape_bounds(const Shape& shape) {
             [](const HeightField& s) { return bounds_of(s); },
             [](const JuliaFractal& s) { return bounds_of(s); },
             [](const Parametric& s) { return bounds_of(s); },
+            [](const Quadric& s) { return bounds_of(s); },
+            [](const PolynomialSurface& s) { return bounds_of(s); },
+            [](const Superellipsoid& s) { return bounds_of(s); },
+            [](const Ovus& s) { return bounds_of(s); },
+            [](const Lathe& s) { return bounds_of(s); },
+            [](const Sor& s) { return bounds_of(s); },
+            [](const Prism& s) { return bounds_of(s); },
+            [](const SphereSweep& s) { return bounds_of(s); },
+            [](const Polygon& s) { return bounds_of(s); },
+            [](const Text& s) { return bounds_of(s); },
         },
         shape);
 }
@@ -407,6 +419,16 @@ const char* shape_name(const Shape& shape) {
                           [](const HeightField&) { return "height_field"; },
                           [](const JuliaFractal&) { return "julia_fractal"; },
                           [](const Parametric&) { return "parametric"; },
+                          [](const Quadric&) { return "quadric"; },
+                          [](const PolynomialSurface&) { return "poly"; },
+                          [](const Superellipsoid&) { return "superellipsoid"; },
+                          [](const Ovus&) { return "ovus"; },
+                          [](const Lathe&) { return "lathe"; },
+                          [](const Sor&) { return "sor"; },
+                          [](const Prism&) { return "prism"; },
+                          [](const SphereSweep&) { return "sphere_sweep"; },
+                          [](const Polygon&) { return "polygon"; },
+                          [](const Text&) { return "text"; },
                       },
                       shape);
 }
@@ -431,6 +453,16 @@ int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits, int enoug
                    [&](const HeightField& s) { intersect(s, ray, hits, enough); },
                    [&](const JuliaFractal& s) { intersect(s, ray, hits, enough); },
                    [](const Parametric&) {},
+                   [&](const Quadric& s) { intersect(s, ray, hits); },
+                   [&](const PolynomialSurface& s) { intersect(s, ray, hits); },
+                   [&](const Superellipsoid& s) { intersect(s, ray, hits); },
+                   [&](const Ovus& s) { intersect(s, ray, hits); },
+                   [&](const Lathe& s) { intersect(s, ray, hits); },
+                   [&](const Sor& s) { intersect(s, ray, hits); },
+                   [&](const Prism& s) { intersect(s, ray, hits); },
+                   [&](const SphereSweep& s) { intersect(s, ray, hits); },
+                   [&](const Polygon& s) { intersect(s, ray, hits); },
+                   [&](const Text& s) { intersect(s, ray, hits); },
                },
                shape);
     return static_cast<int>(hits.size());
@@ -466,6 +498,16 @@ bool inside_shape(const Shape& shape, Vec3 p) {
             [&](const HeightField& s) { return is_inside(s, p); },
             [&](const JuliaFractal& s) { return is_inside(s, p); },
             [](const Parametric&) { return false; },
+            [&](const Quadric& s) { return is_inside(s, p); },
+            [&](const PolynomialSurface& s) { return is_inside(s, p); },
+            [&](const Superellipsoid& s) { return is_inside(s, p); },
+            [&](const Ovus& s) { return is_inside(s, p); },
+            [&](const Lathe& s) { return is_inside(s, p); },
+            [&](const Sor& s) { return is_inside(s, p); },
+            [&](const Prism& s) { return is_inside(s, p); },
+            [&](const SphereSweep& s) { return is_inside(s, p); },
+            [&](const Polygon& s) { return is_inside(s, p); },
+            [&](const Text& s) { return is_inside(s, p); },
         },
         shape);
 }

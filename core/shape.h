@@ -110,8 +110,51 @@ struct Parametric { // becomes a mesh: see tessellate
     std::shared_ptr<const ParametricData> data;
 };
 
+// Shapes that are given by polynomials and the like (shape_algebraic.h). What has many numbers is shared by copies.
+struct Quadric { // inside where q[0] x^2 + q[1] y^2 + q[2] z^2 + q[3] xy + q[4] xz + q[5] yz + q[6] x + q[7] y + q[8] z + q[9] < 0
+    std::array<double, 10> q{};
+};
+struct PolynomialData;
+struct PolynomialSurface { // cubic, quartic, poly; inside where negative
+    std::shared_ptr<const PolynomialData> data;
+};
+struct Superellipsoid { // (|x|^(2/e) + |y|^(2/e))^(e/n) + |z|^(2/n) = 1
+    double east_west = 1, north_south = 1;
+};
+struct Ovus { // an egg: a ball of radius `bottom` about the origin, one of radius `top` about <0, bottom, 0>, and their hull
+    double bottom = 1, top = 0.5;
+};
+
+// Shapes that are made of curves (shape_swept.h).
+struct LatheData;
+struct Lathe { // about the y axis
+    std::shared_ptr<const LatheData> data;
+};
+struct Sor { // likewise
+    std::shared_ptr<const LatheData> data;
+    bool open = false; // without lids
+};
+struct PrismData;
+struct Prism { // along y
+    std::shared_ptr<const PrismData> data;
+    bool open = false; // without lids
+};
+struct SphereSweepData;
+struct SphereSweep {
+    std::shared_ptr<const SphereSweepData> data;
+};
+struct PolygonData;
+struct Polygon {
+    std::shared_ptr<const PolygonData> data;
+};
+struct TextData;
+struct Text { // from z = 0 on
+    std::shared_ptr<const TextData> data;
+};
+
 using Shape = std::variant<Sphere, Box, Plane, Cylinder, Cone, Torus, Disc, Mesh, BicubicPatch, Isosurface, Blob,
-                           HeightField, JuliaFractal, Parametric>;
+                           HeightField, JuliaFractal, Parametric, Quadric, PolynomialSurface, Superellipsoid, Ovus, Lathe,
+                           Sor, Prism, SphereSweep, Polygon, Text>;
 
 // In the shape's own space; infinite for unbounded shapes.
 Bounds shape_bounds(const Shape& shape);

@@ -30,8 +30,8 @@ void parse_default_block(Parser& p);
 std::optional<Object> parse_object(Parser& p);
 // One item that any object takes behind its own: texture, transforms, npr, flags. False if none stands here.
 bool parse_object_modifier(Parser& p, Object& object);
-// A shape's own items, up to the first modifier or `}`; parse_shapes.cpp, parse_mesh.cpp,
-// parse_field_shapes.cpp.
+// A shape's own items, up to the first modifier or `}`; parse_shapes.cpp, parse_mesh.cpp, parse_field_shapes.cpp,
+// parse_algebraic.cpp and parse_swept.cpp.
 Shape parse_sphere(Parser& p);
 Shape parse_box(Parser& p);
 Shape parse_plane(Parser& p);
@@ -49,6 +49,19 @@ Shape parse_blob(Parser& p);
 Shape parse_height_field(Parser& p);
 Shape parse_julia_fractal(Parser& p);
 Shape parse_parametric(Parser& p);
+Shape parse_quadric(Parser& p);
+Shape parse_cubic(Parser& p);
+Shape parse_quartic(Parser& p);
+Shape parse_poly(Parser& p);
+Shape parse_polynomial(Parser& p);
+Shape parse_superellipsoid(Parser& p);
+Shape parse_ovus(Parser& p);
+Shape parse_lathe(Parser& p);
+Shape parse_sor(Parser& p);
+Shape parse_prism(Parser& p);
+Shape parse_sphere_sweep(Parser& p);
+Shape parse_polygon(Parser& p);
+Shape parse_text(Parser& p);
 
 // ---- textures
 // -------------------------------------------------------------------------------------------------

@@ -83,7 +83,7 @@ inline constexpr auto reserved_words = std::to_array<std::string_view>({
     "union", "up", "use_alpha", "use_color", "use_index", "utf8", "uv_indices", "uv_mapping",
     "uv_vectors", "v", "v_steps", "val", "variance", "vaxis_rotate", "vcross", "vdot", "version",
     "vertex_vectors", "vlength", "vnormalize", "vrotate", "vstr", "vturbulence", "warning", "warp",
-    "water_level", "waves", "while", "width", "wood", "wrinkles", "write", "x", "y", "yes", "z"
+    "water_level", "waves", "while", "width", "wood", "wrinkles", "write", "x", "xyz", "y", "yes", "z"
 });
 
 inline constexpr auto free_words = std::to_array<std::string_view>({

@@ -48,6 +48,32 @@ ShapeParser find_shape_parser(const Token& word) {
         return parse_julia_fractal;
     case "parametric"_kw:
         return parse_parametric;
+    case "quadric"_kw:
+        return parse_quadric;
+    case "cubic"_kw:
+        return parse_cubic;
+    case "quartic"_kw:
+        return parse_quartic;
+    case "poly"_kw:
+        return parse_poly;
+    case "polynomial"_kw:
+        return parse_polynomial;
+    case "superellipsoid"_kw:
+        return parse_superellipsoid;
+    case "ovus"_kw:
+        return parse_ovus;
+    case "lathe"_kw:
+        return parse_lathe;
+    case "sor"_kw:
+        return parse_sor;
+    case "prism"_kw:
+        return parse_prism;
+    case "sphere_sweep"_kw:
+        return parse_sphere_sweep;
+    case "polygon"_kw:
+        return parse_polygon;
+    case "text"_kw:
+        return parse_text;
     default:
         return nullptr;
     }
@@ -60,28 +86,6 @@ bool is_group(const Token& word) {
     case "difference"_kw:
     case "intersection"_kw:
     case "light_group"_kw:
-        return true;
-    default:
-        return false;
-    }
-}
-
-// Objects of POV-Ray's that we know and lack.
-bool is_unsupported_object(const Token& word) {
-    switch (keyword_of(word)) {
-    case "cubic"_kw:
-    case "lathe"_kw:
-    case "ovus"_kw:
-    case "poly"_kw:
-    case "polygon"_kw:
-    case "polynomial"_kw:
-    case "prism"_kw:
-    case "quadric"_kw:
-    case "quartic"_kw:
-    case "sor"_kw:
-    case "sphere_sweep"_kw:
-    case "superellipsoid"_kw:
-    case "text"_kw:
         return true;
     default:
         return false;
@@ -233,6 +237,13 @@ bool parse_flag(Parser& p, Object& object) {
             return next(p), cylinder->open = true;
         if (Cone* cone = object.shape ? std::get_if<Cone>(&*object.shape) : nullptr)
             return next(p), cone->open = true;
+        if (Prism* prism = object.shape ? std::get_if<Prism>(&*object.shape) : nullptr)
+            return next(p), prism->open = true;
+        if (Sor* sor = object.shape ? std::get_if<Sor>(&*object.shape) : nullptr)
+            return next(p), sor->open = true;
+        return false;
+    case "tolerance"_kw: // hits are as exact as numbers are
+        if (object.shape && std::holds_alternative<SphereSweep>(*object.shape)) return next(p), parse_float(p), true;
         return false;
     case "smooth"_kw:
         if (Mesh* mesh = mesh_from_file(object)) return next(p), mesh->smooth = parse_optional_bool(p), true;
@@ -371,10 +382,7 @@ std::optional<Object> parse_object(Parser& p) {
         object = parse_group(p, next(p));
     else if (accept(p, "object"_kw))
         object = parse_object_reference(p);
-    else if (is_unsupported_object(word)) {
-        warn_unsupported(p, next(p), token_text(p, word, false), "such objects are left out");
-        skip_block(p, token_text(p, word, false));
-    } else
+    else
         return std::nullopt;
     object.said_at = source_ref(p, word);
     charge(p, word, sizeof(Object));
