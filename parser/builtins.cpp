@@ -273,7 +273,7 @@ double sum_or_product(Parser& p, const Token& name) {
     double result = is_sum ? 0 : 1;
     for (double i = first; i <= last + 1e-9; i += 1) {
         if (++p.in.used.loop_turns > p.in.options.budgets.loop_turns)
-            stop(p, name,
+            stop_at_limit(p, name, &Budgets::loop_turns,
                  fmt::format("the scene's loops turn more than {} times", p.in.options.budgets.loop_turns));
         if (p.in.frames.size() != frames || p.in.frames.back().scope != scope)
             fail(p, name, "the last argument must stand in one macro or file");

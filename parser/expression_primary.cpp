@@ -441,7 +441,7 @@ Value array_value(Parser& p) {
         if (size < 1) fail(p, first, "an array needs at least one element");
         count *= size;
         if (count > static_cast<double>(p.in.options.budgets.array_elements))
-            stop(p, first,
+            stop_at_limit(p, first, &Budgets::array_elements,
                  fmt::format("the array has more than {} elements", p.in.options.budgets.array_elements));
         expect(p, ']', "to close the size");
         dimensions.push_back(static_cast<int>(size));

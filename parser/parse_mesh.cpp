@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Triangles: alone, in meshes, in lists of numbers, in files; and bicubic patches.
 #include "parser/blocks.h"
+#include "parser/number_list.h"
 
 #include <cstring>
 #include <unordered_map>
@@ -144,10 +145,57 @@ std::size_t parse_count(Parser& p) {
     return static_cast<std::size_t>(count);
 }
 
+bool read_entry(NumberCursor& cursor, Vec3f& entry) {
+    double v[3];
+    if (!read_vector(cursor, 3, v)) return false;
+    entry = Vec3f(v[0], v[1], v[2]);
+    return true;
+}
+bool read_entry(NumberCursor& cursor, Vec2f& entry) {
+    double v[2];
+    if (!read_vector(cursor, 2, v)) return false;
+    entry = Vec2f(v[0], v[1]);
+    return true;
+}
+bool read_entry(NumberCursor& cursor, Triple& entry) {
+    double v[3];
+    if (!read_vector(cursor, 3, v)) return false;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!(v[i] >= 0 && v[i] < 4294967295.0)) return false;
+        entry[i] = static_cast<std::uint32_t>(v[i]);
+    }
+    return true;
+}
+
+// The whole list from its text: the count, then as many entries, and nothing else.
+template <class T>
+bool read_number_list(Parser& p, const Token& opener, std::vector<T>& list) {
+    const auto text = peek_number_list(p);
+    if (!text) return false;
+    NumberCursor cursor(*text);
+    double count = 0;
+    // An entry takes at least 5 bytes: no memory for a count that the text cannot hold.
+    if (!read_number(cursor, count) || count < 1 || count * 5 > static_cast<double>(text->size())) return false;
+    charge(p, opener, static_cast<std::size_t>(count) * sizeof(T));
+    list.resize(static_cast<std::size_t>(count));
+    for (T& entry : list) {
+        skip_comma(cursor);
+        if (!read_entry(cursor, entry)) return false;
+    }
+    skip_comma(cursor);
+    if (!at_list_end(cursor)) return false;
+    take_number_list(p);
+    return true;
+}
+
 template <class T, class F>
 void parse_list(Parser& p, std::string_view what, std::vector<T>& list, F item) {
     const Token opener = peek(p);
     open_block(p, what);
+    if (read_number_list(p, opener, list)) {
+        close_block(p);
+        return;
+    }
     const std::size_t count = parse_count(p);
     charge(p, opener, count * sizeof(T));
     list.clear();
