@@ -57,10 +57,10 @@ const std::shared_ptr<const Macro>* macro_of(const Expander& in, Symbol symbol) 
 }
 
 // True when the stream ends here for the directive whose expression is being read.
-bool held(const Expander& in, const TokenFrame& frame, bool behind_operand) {
+bool held(const Expander& in, const TokenFrame& frame, std::uint32_t index, bool behind_operand) {
     if (in.hold.frame != in.frames.size()) return false;
-    if (frame.position == frame.end) return true;
-    const StoredToken& token = frame.tokens[frame.position];
+    if (index == frame.end) return true;
+    const StoredToken& token = frame.tokens[index];
     if (kind_of(token) != TokenKind::directive) return false;
     if (behind_operand && ends_expression(static_cast<Keyword>(token.name.symbol))) return true;
     return closes_before(frame, token, in.hold.start);
@@ -107,7 +107,7 @@ void fill(Parser& p, bool behind_operand) {
     Expander& in = p.in;
     for (;;) {
         TokenFrame& frame = in.frames.back();
-        if (in.hold.frame != 0 && held(in, frame, behind_operand)) {
+        if (in.hold.frame != 0 && held(in, frame, frame.position, behind_operand)) {
             in.buffer = end_token(frame);
             return; // not buffered: the next look finds it again
         }
@@ -119,17 +119,17 @@ void fill(Parser& p, bool behind_operand) {
             pop_frame(p);
             continue;
         }
-        in.buffer = unpack(frame.tokens[frame.position++], frame.source, frame.chain);
-        const Token& token = in.buffer;
+        const StoredToken& stored = frame.tokens[frame.position++];
+        const Token token = unpack(stored, frame.source, frame.chain);
         if (++in.used.tokens > in.options.budgets.tokens) stop_at_tokens(p, token);
-        switch (token.kind) {
+        switch (kind_of(stored)) {
         case TokenKind::directive:
-            run_directive(p, Token(token));
+            run_directive(p, token);
             if (in.buffered) return;
             continue;
         case TokenKind::word:
             if (const auto* macro = macro_of(in, token.symbol)) {
-                call_macro(p, std::shared_ptr<const Macro>(*macro), Token(token));
+                call_macro(p, std::shared_ptr<const Macro>(*macro), token);
                 continue;
             }
             break;
@@ -137,10 +137,11 @@ void fill(Parser& p, bool behind_operand) {
             push_part(p, token.span);
             continue;
         case TokenKind::invalid:
-            fail(p, Token(token), in.strings[token.symbol]);
+            fail(p, token, in.strings[token.symbol]);
         default:
             break;
         }
+        in.buffer = token;
         in.buffered = true;
         return;
     }
@@ -163,6 +164,22 @@ std::uint32_t call_number(Expander& in, std::uint32_t parent, const Token& at, S
 
 void fill_buffer(Parser& p) { fill(p, false); }
 
+bool ends_here(const Expander& in, const TokenFrame& frame, std::uint32_t index) {
+    if (index == frame.end) return in.frames.size() == 1 || held(in, frame, index, true);
+    const StoredToken& token = frame.tokens[index];
+    switch (kind_of(token)) {
+    case TokenKind::directive:
+        return held(in, frame, index, true);
+    case TokenKind::word:
+        return macro_of(in, token.name.symbol) == nullptr;
+    case TokenKind::invalid:
+    case TokenKind::numbers:
+        return false;
+    default:
+        return true;
+    }
+}
+
 const Token& peek_operator(Parser& p) {
     if (!p.in.buffered) fill(p, true);
     return p.in.buffer;
@@ -177,9 +194,9 @@ const Token& peek_raw(Parser& p) {
 }
 
 Token next_raw(Parser& p) {
-    const Token token = peek_raw(p);
-    if (token.kind != TokenKind::end) ++p.in.frames.back().position;
-    return token;
+    TokenFrame& frame = p.in.frames.back();
+    if (frame.position == frame.end) return end_token(frame);
+    return unpack(frame.tokens[frame.position++], frame.source, frame.chain);
 }
 
 // ---- frames
@@ -251,20 +268,6 @@ const std::vector<StoredToken>& tokens_of(Parser& p, std::uint32_t source) {
         in.symbols.resize(in.words.texts.size());
     }
     return tokens;
-}
-
-Token unpack(const StoredToken& stored, std::uint32_t source, std::uint32_t chain) {
-    Token token;
-    token.kind = kind_of(stored);
-    token.span = {source, stored.begin, stored.begin + stored.length};
-    token.chain = chain;
-    if (token.kind == TokenKind::number) {
-        token.value = stored.number;
-    } else {
-        token.symbol = stored.name.symbol;
-        token.value = stored.name.jump;
-    }
-    return token;
 }
 
 // ---- names

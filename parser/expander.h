@@ -142,6 +142,9 @@ struct ParseStop {};
 // ---------------------------------------------------------------------------------------------------
 
 void fill_buffer(Parser& p); // the next token after expansion into in.buffer
+// May an expression end before tokens[index] for certain, whatever runs next? Not at a macro, nor where directives
+// or the frame around have a word.
+bool ends_here(const Expander& in, const TokenFrame& frame, std::uint32_t index);
 // Between an operand and an operator: like peek, but in a directive's expression it shows `end` where the
 // expression must end before the next directive runs.
 const Token& peek_operator(Parser& p);
@@ -157,8 +160,20 @@ void push_macro(Parser& p, const std::shared_ptr<const Macro>& macro, const Toke
 void pop_frame(Parser& p);
 const std::vector<StoredToken>& tokens_of(Parser& p, std::uint32_t source); // lexed on first use
 // A stored token as the parser sees it. A directive's `value` is its jump.
-Token unpack(const StoredToken& stored, std::uint32_t source, std::uint32_t chain);
 inline TokenKind kind_of(const StoredToken& token) { return static_cast<TokenKind>(token.kind); }
+inline Token unpack(const StoredToken& stored, std::uint32_t source, std::uint32_t chain) {
+    Token token;
+    token.kind = kind_of(stored);
+    token.span = {source, stored.begin, stored.begin + stored.length};
+    token.chain = chain;
+    if (token.kind == TokenKind::number) {
+        token.value = stored.number;
+    } else {
+        token.symbol = stored.name.symbol;
+        token.value = stored.name.jump;
+    }
+    return token;
+}
 inline bool is(const StoredToken& token, char punctuation) {
     return kind_of(token) == TokenKind::punctuation && token.name.symbol == static_cast<Symbol>(punctuation);
 }

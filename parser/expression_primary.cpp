@@ -5,6 +5,7 @@
 #include "parser/color_space.h"
 #include "parser/expression.h"
 #include "parser/function.h"
+#include "parser/quick_expression.h"
 
 #include <fmt/format.h>
 
@@ -59,30 +60,6 @@ const Value* shown_value(Parser& p, const Token& token) {
     if (frame.position == frame.end || !is(frame.tokens[frame.position], '[')) return value;
     const Value* element = sample(**array);
     return element ? element : value;
-}
-
-// `.x`, `.red` ...: the component's index, or -1.
-int component_index(Keyword word) {
-    switch (word) {
-    case "x"_kw:
-    case "u"_kw:
-    case "red"_kw:
-        return 0;
-    case "y"_kw:
-    case "v"_kw:
-    case "green"_kw:
-        return 1;
-    case "z"_kw:
-    case "blue"_kw:
-        return 2;
-    case "t"_kw:
-    case "filter"_kw:
-        return 3;
-    case "transmit"_kw:
-        return 4;
-    default:
-        return -1;
-    }
 }
 
 VectorValue take_component(Parser& p, const VectorValue& value) {
@@ -458,6 +435,8 @@ Value array_value(Parser& p) {
 }
 
 Value parse_value(Parser& p) {
+    if (VectorValue quick; quick_expression(p, Angles::compare, quick))
+        return quick.size == 1 ? Value{quick.v[0]} : Value{quick};
     const Token token = peek(p);
     const Nesting nesting(p, token);
     if (token.kind == TokenKind::string) return Value{parse_string(p)};
