@@ -14,6 +14,8 @@ template <class... F>
 struct Overload : F... {
     using F::operator()...;
 };
+template <class... F>
+Overload(F...) -> Overload<F...>; // clang 14 does not find it by itself
 
 constexpr Bounds everywhere{Vec3(-infinity), Vec3(infinity)};
 

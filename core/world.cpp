@@ -33,6 +33,8 @@ template <class... F>
 struct Overload : F... {
     using F::operator()...;
 };
+template <class... F>
+Overload(F...) -> Overload<F...>; // clang 14 does not find it by itself
 
 bool is_finite(const Shape& shape) {
     return std::visit(

@@ -5,6 +5,7 @@
 #include "parser/color_space.h"
 #include "parser/expression.h"
 #include "parser/function.h"
+#include "parser/quick_expression.h"
 #include "parser/spline.h"
 
 #include <fmt/format.h>
@@ -430,7 +431,7 @@ Value array_value(Parser& p) {
         if (size < 1) fail(p, first, "an array needs at least one element");
         count *= size;
         if (count > static_cast<double>(p.in.options.budgets.array_elements))
-            stop(p, first,
+            stop_at_limit(p, first, &Budgets::array_elements,
                  fmt::format("the array has more than {} elements", p.in.options.budgets.array_elements));
         expect(p, ']', "to close the size");
         dimensions.push_back(static_cast<int>(size));
@@ -447,6 +448,8 @@ Value array_value(Parser& p) {
 }
 
 Value parse_value(Parser& p) {
+    if (VectorValue quick; quick_expression(p, Angles::compare, quick))
+        return quick.size == 1 ? Value{quick.v[0]} : Value{quick};
     const Token token = peek(p);
     const Nesting nesting(p, token);
     if (token.kind == TokenKind::string) return Value{parse_string(p)};
