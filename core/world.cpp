@@ -377,7 +377,9 @@ struct Builder {
         surface.no_shadow = from.no_shadow;
         surface.no_image = from.no_image;
         surface.no_reflection = from.no_reflection;
-        if (const PartTextures* textures = part_textures(item); textures && !from.unseen)
+        const Mesh* from_file = object.shape ? std::get_if<Mesh>(&*object.shape) : nullptr;
+        const bool overruled = from_file && !from_file->file.empty() && from.texture; // a file's own textures
+        if (const PartTextures* textures = part_textures(item); textures && !from.unseen && !overruled)
             item.first_part = add_parts(*textures, from, object.transform, surface);
         add_item(std::move(item), surface);
         return static_cast<std::uint32_t>(items.size()) - 1;
@@ -403,7 +405,8 @@ struct Builder {
     }
 
     void append_parts() {
-        for (GeometryItem& item : items) item.first_part += static_cast<std::uint32_t>(items.size());
+        for (GeometryItem& item : items)
+            if (item.first_part != no_texture) item.first_part += static_cast<std::uint32_t>(items.size());
         world.surfaces.insert(world.surfaces.end(), parts.begin(), parts.end());
     }
 
