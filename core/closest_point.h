@@ -6,7 +6,6 @@
 #include "core/world.h"
 
 #include <memory>
-#include <optional>
 
 namespace pnr {
 
@@ -41,8 +40,5 @@ ClosestPoint closest_point_on_shape(const Shape& shape, Vec3 point);
 // What closest_point_on_shape takes for shapes without a formula: found by hits along lines, to about 1e-8 of the distance,
 // at edges to 1e-3; at once where the point lies on the surface.
 ClosestPoint closest_point_by_rays(const Shape& shape, Vec3 point);
-
-// The surface nearest to the point among those that the line along `normal` (unit) meets within `reach` to either side.
-std::optional<ClosestPoint> surface_along(const Shape& shape, Vec3 point, Vec3 normal, double reach);
 
 } // namespace pnr

@@ -34,7 +34,7 @@ struct Nearest {
     Vec3 way() const { return distance > 0 ? (position - query) / distance : normal; }
 };
 
-// Directions that cover half of the sphere evenly, along a spiral of golden sections.
+// Directions that cover half of the sphere evenly, along a spiral of golden sections [Gonzalez 2010].
 Vec3 spread_direction(int i, int count) {
     const double z = (i + 0.5) / count, r = std::sqrt(1 - z * z), angle = 2 * pi * 0.618033988749895 * i;
     return {r * std::cos(angle), z, r * std::sin(angle)};
@@ -91,20 +91,6 @@ ClosestPoint closest_point_by_rays(const Shape& shape, Vec3 point) {
     found.normal = nearest.normal;
     found.distance = nearest.distance;
     return found;
-}
-
-std::optional<ClosestPoint> surface_along(const Shape& shape, Vec3 point, Vec3 normal, double reach) {
-    HitList hits;
-    intersect_shape(shape, {point, normal, -reach, reach}, hits);
-    std::optional<ClosestPoint> best;
-    for (const ShapeHit& hit : hits) {
-        if (best && best->distance <= std::abs(hit.t)) continue;
-        best.emplace();
-        best->position = point + hit.t * normal;
-        best->normal = glm::normalize(hit.normal);
-        best->distance = std::abs(hit.t);
-    }
-    return best;
 }
 
 } // namespace pnr

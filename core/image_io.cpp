@@ -109,6 +109,35 @@ Image<glm::vec4> read_image(const fs::path& file) {
     return image;
 }
 
+Image<float> read_heights(const fs::path& file, bool pot) {
+    Image<std::uint8_t> numbers;
+    if (image_module().decode_numbers(file.string(), numbers).empty()) {
+        const int width = pot ? numbers.width / 2 : numbers.width;
+        Image<float> heights(width, numbers.height);
+        for (int y = 0; y < heights.height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const int low = pot ? numbers.at(x + width, y) : 0;
+                heights.at(x, y) = static_cast<float>(numbers.at(x, y) * 256 + low) / 65536;
+            }
+        return heights;
+    }
+    const DecodedPicture decoded = decode(file);
+    const ImagePart& part = decoded.image.parts.front();
+    const PixelRect& window = decoded.image.data_window;
+    Image<float> heights(window.x1 - window.x0, window.y1 - window.y0);
+    const std::size_t count = part.channel_names.size();
+    for (std::size_t i = 0; i < heights.pixels.size(); ++i) {
+        const float* v = part.data.data() + i * count;
+        if (count < 3)
+            heights.pixels[i] = v[0] * 65535 / 65536;
+        else if (decoded.is_integer && decoded.bits == 8)
+            heights.pixels[i] = (std::round(v[0] * 255) * 256 + std::round(v[1] * 255)) / 65536;
+        else
+            heights.pixels[i] = (0.297f * v[0] + 0.589f * v[1] + 0.114f * v[2]) * 65535 / 65536;
+    }
+    return heights;
+}
+
 ImageFile read_exr(const fs::path& file) { return decode(file).image; }
 
 float srgb_encode(float linear) {

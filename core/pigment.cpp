@@ -8,51 +8,9 @@ namespace pnr {
 
 namespace {
 
-// A pattern's point and how far rounding may have moved it: a face that lies exactly on a pattern's border
-// (the floor y = 0 under a checker, the top y = 1 of a gradient) must not flicker between two colours.
-// POV-Ray's own tolerance is of the same kind and size (1e-9 is already on the other side of the border
-// there, 1e-12 is not).
-struct PatternPoint {
-    Vec3 p;
-    double tolerance;
-};
-
-PatternPoint to_pattern_space(const Transform& transform, Vec3 point) {
-    constexpr double rounding = 0x1p-50; // four roundings of the largest term
-    double largest = 0;
-    for (int row = 0; row < 3; ++row) {
-        double sum = std::abs(transform.inverse[3][row]);
-        for (int column = 0; column < 3; ++column)
-            sum += std::abs(transform.inverse[column][row] * point[column]);
-        largest = std::max(largest, sum);
-    }
-    return {transform_point(transform.inverse, point), 1e-10 + rounding * largest};
-}
-
-// The fractional part as POV-Ray takes it: 1 stays 1, every other integer gives 0.
-double ramp(double value, double tolerance) {
-    const double nearest = std::round(value);
-    if (std::abs(value - nearest) <= tolerance) return nearest == 1 ? 1 : 0;
-    return value - std::floor(value);
-}
-
 ColorFT mix_colors(const ColorFT& a, const ColorFT& b, float t) {
     return {a.rgb + t * (b.rgb - a.rgb), a.filter + t * (b.filter - a.filter),
             a.transmit + t * (b.transmit - a.transmit)};
-}
-
-// Linear between stops, constant beyond the first and the last; where two stops share a position the earlier
-// one counts there.
-ColorFT map_color(const std::vector<ColorStop>& map, double value) {
-    std::size_t next = 0;
-    while (next < map.size() && map[next].position < value) ++next;
-    if (next == 0) return map.front().color;
-    if (next == map.size()) return map.back().color;
-    const ColorStop& low = map[next - 1];
-    const ColorStop& high = map[next];
-    const double width = high.position - low.position;
-    if (!(width > 0)) return high.color;
-    return mix_colors(low.color, high.color, static_cast<float>((value - low.position) / width));
 }
 
 // ---- pictures
@@ -123,34 +81,63 @@ ColorFT picture_color(const ImagePattern& pattern, Vec3 point, Vec2 uv) {
     return {Color(value), 0, 1 - value.w};
 }
 
-struct PatternColor {
-    const Pigment& pigment;
-    Vec3 point;
-    Vec2 uv;
-
-    ColorFT operator()(const UniformPattern&) const { return pigment.map.front().color; }
-    ColorFT operator()(const CheckerPattern&) const {
-        const PatternPoint at = to_pattern_space(pigment.transform, point);
-        const Vec3 cell = glm::floor(at.p + Vec3(at.tolerance));
-        const bool odd = std::fmod(std::abs(cell.x + cell.y + cell.z), 2.0) == 1;
-        return odd && pigment.map.size() > 1 ? pigment.map[1].color : pigment.map.front().color;
-    }
-    ColorFT operator()(const GradientPattern& gradient) const {
-        const double length = glm::length(gradient.axis);
-        if (!(length > 0)) return pigment.map.front().color;
-        const PatternPoint at = to_pattern_space(pigment.transform, point);
-        const double value = ramp(glm::dot(at.p, gradient.axis / length), at.tolerance);
-        return map_color(pigment.map, ramp(value * pigment.frequency + pigment.phase, at.tolerance));
-    }
-    ColorFT operator()(const ImagePattern& pattern) const {
-        return picture_color(pattern, transform_point(pigment.transform.inverse, point), uv);
-    }
-};
+ColorFT average(const Pigment& pigment, const SurfacePoint& here) {
+    ColorFT sum;
+    double weights = 0;
+    const auto add = [&](const ColorFT& c, double weight) {
+        const float w = static_cast<float>(weight);
+        sum.rgb += w * c.rgb, sum.filter += w * c.filter, sum.transmit += w * c.transmit;
+        weights += weight;
+    };
+    for (const auto& entry : pigment.pigments) add(eval_pigment(entry.value, here), entry.position);
+    if (pigment.pigments.empty())
+        for (const ColorStop& stop : pigment.map) add(stop.color, stop.position);
+    if (!(weights > 0)) return pigment.map.front().color;
+    const float scale = static_cast<float>(1 / weights);
+    return {sum.rgb * scale, sum.filter * scale, sum.transmit * scale};
+}
 
 } // namespace
 
-ColorFT eval_pigment(const Pigment& pigment, Vec3 point, Vec2 uv) {
-    return std::visit(PatternColor{pigment, point, uv}, pigment.pattern);
+ColorFT eval_pigment(const Pigment& pigment, const SurfacePoint& at) {
+    const Pattern& pattern = pigment.pattern;
+    if (std::holds_alternative<UniformPattern>(pattern.kind)) return pigment.map.front().color;
+    const SurfacePoint here = to_pattern_space(pattern, at);
+    if (const auto* picture = std::get_if<ImagePattern>(&pattern.kind))
+        return picture_color(*picture, here.point, at.uv);
+    if (std::holds_alternative<AveragePattern>(pattern.kind)) return average(pigment, here);
+    const double value = eval_pattern_here(pattern, here);
+    const bool list = is_list_pattern(pattern);
+    if (!pigment.pigments.empty()) {
+        const BlendSpot spot = look_up(pigment.pigments, value, list);
+        const ColorFT low = eval_pigment(pigment.pigments[spot.low].value, here);
+        if (spot.low == spot.high) return low;
+        return mix_colors(low, eval_pigment(pigment.pigments[spot.high].value, here),
+                          static_cast<float>(spot.weight));
+    }
+    const BlendSpot spot = look_up(pigment.map, value, list);
+    return mix_colors(pigment.map[spot.low].color, pigment.map[spot.high].color,
+                      static_cast<float>(spot.weight));
 }
+
+bool is_see_through(const Pigment& pigment) {
+    if (const auto* picture = std::get_if<ImagePattern>(&pigment.pattern.kind))
+        return picture->once ||
+               (picture->image && std::any_of(picture->image->pixels.begin(), picture->image->pixels.end(),
+                                              [](const glm::vec4& p) { return p.w < 1; }));
+    if (!pigment.pigments.empty())
+        return std::any_of(pigment.pigments.begin(), pigment.pigments.end(),
+                           [](const auto& entry) { return is_see_through(entry.value); });
+    return std::any_of(pigment.map.begin(), pigment.map.end(), [](const ColorStop& stop) {
+        return stop.color.filter > 0 || stop.color.transmit > 0;
+    });
+}
+
+void transform_pattern(Pattern& pattern, const Transform& by) {
+    if (!std::holds_alternative<UniformPattern>(pattern.kind) && !pattern.uv_mapping)
+        pattern.transform = then(pattern.transform, by);
+}
+
+void transform_pigment(Pigment& pigment, const Transform& by) { transform_pattern(pigment.pattern, by); }
 
 } // namespace pnr

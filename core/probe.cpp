@@ -60,7 +60,7 @@ std::optional<ProbeHit> trace(const Probe& probe, Vec3 origin, Vec3 direction) {
     if (!(length > 0)) return std::nullopt;
     const auto hit = closest_hit(world, {origin - world.offset, direction / length, 1e-6}, RayKind::camera);
     if (!hit) return std::nullopt;
-    const Shape& shape = std::get<Shape>(geometry_items(*world.geometry)[hit->surface].form);
+    const Shape& shape = std::get<Shape>(geometry_items(*world.geometry)[hit->leaf].form);
     const Mesh* mesh = std::get_if<Mesh>(&shape);
     const bool faces_away =
         mesh && (mesh->data->normals.empty() || glm::dot(hit->shading_normal, direction) > 0);

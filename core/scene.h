@@ -7,6 +7,7 @@
 #include "core/pigment.h"
 #include "core/settings.h"
 #include "core/shape.h"
+#include "core/texture.h"
 #include "core/types.h"
 
 #include <functional>
@@ -17,36 +18,9 @@
 
 namespace pnr {
 
-// POV-Ray's `reflection`: between min (facing) and max (grazing).
-struct Reflection {
-    Color min{0}, max{0};
-    double falloff = 1;
-    double exponent = 1;
-    double metallic = 0;   // 0..1: how far the pigment tints it
-    bool fresnel = false;
-};
-
-struct Finish { // defaults are POV-Ray 3.7's
-    Color ambient{0.1f};
-    Color emission{0};
-    double diffuse = 0.6;
-    double brilliance = 1;
-    double phong = 0, phong_size = 40;
-    double specular = 0, roughness = 0.05;
-    double metallic = 0;   // of the highlights
-    Reflection reflection;
-    bool conserve_energy = false;
-};
-
-struct Interior {
-    double ior = 1;
-    double fade_distance = 0, fade_power = 0;
-    Color fade_color{0};
-};
-
-struct Texture {
-    Pigment pigment;
-    Finish finish;
+// Textures that a shape's triangles or components number, in the shape's own space.
+struct PartTextures {
+    std::vector<Texture> list;
 };
 
 // Object-level `photons { ... }`. PSR and PA of [LW10 Table 1], in sequence: specular with probability
@@ -119,10 +93,12 @@ struct Object {
     std::vector<LightSource> lights;  // that stand in a union; the parser moves them to Scene::lights
     Transform transform;              // shape's own space -> scene space
     std::optional<Texture> texture;   // children without one use their parent's
+    std::optional<Texture> interior_texture; // of the inner side; likewise
     std::optional<Interior> interior; // likewise
     std::optional<PhotonRoles> photons;
     std::optional<PaintWord> npr;
     bool no_shadow = false, no_image = false, no_reflection = false, hollow = false, inverse = false;
+    bool double_illuminate = false;
 };
 
 struct Scene {
@@ -134,6 +110,7 @@ struct Scene {
     std::vector<LightSource> lights;
     Color background{0};
     Color ambient_light{1};          // global_settings
+    Color irid_wavelength{0.70f, 0.52f, 0.48f}; // global_settings; likewise
     bool radiosity = false;          // a `radiosity {}` block: indirect light is wanted
     bool povray = false;             // a .pov file
     // What a value v of the finished picture means: linear light v^assumed_gamma, or, if 0, v through the sRGB curve. Applied

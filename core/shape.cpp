@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/polynomial.h"
 #include "core/shape_algebraic.h"
+#include "core/shape_field.h"
 #include "core/shape_swept.h"
 
 #include <algorithm>
@@ -14,6 +15,8 @@ template <class... F>
 struct Overload : F... {
     using F::operator()...;
 };
+template <class... F>
+Overload(F...) -> Overload<F...>; // clang 14 does not find it by itself
 
 constexpr Bounds everywhere{Vec3(-infinity), Vec3(infinity)};
 
@@ -128,6 +131,15 @@ struct Stretch {
     }
 };
 
+// Where POV-Ray lays the faces out: a band of the four sides, the lid over and the bottom under the second of them.
+Vec2 box_uv(Vec3 p, Vec3 outward) { // p: shares of the box's edges
+    if (outward.x < 0) return {0.25 * p.z, (1 + p.y) / 3};
+    if (outward.z > 0) return {0.25 + 0.25 * p.x, (1 + p.y) / 3};
+    if (outward.x > 0) return {0.75 - 0.25 * p.z, (1 + p.y) / 3};
+    if (outward.z < 0) return {1 - 0.25 * p.x, (1 + p.y) / 3};
+    return {0.25 + 0.25 * p.x, outward.y > 0 ? 1 - p.z / 3 : p.z / 3};
+}
+
 void intersect_box(const Box& box, Hits& out) {
     const Vec3 low = glm::min(box.low, box.high), high = glm::max(box.low, box.high);
     Stretch inside;
@@ -136,7 +148,13 @@ void intersect_box(const Box& box, Hits& out) {
         n[axis] = 1;
         if (!inside.cut_slab(out.ray.origin[axis], out.ray.direction[axis], low[axis], high[axis], n)) return;
     }
-    inside.add_to(out);
+    if (inside.empty()) return;
+    const auto add = [&](double t, Vec3 normal) {
+        const Vec3 p = out.ray.origin + t * out.ray.direction;
+        out.add(t, normal, box_uv(glm::clamp((p - low) / (high - low), 0.0, 1.0), normal));
+    };
+    add(inside.enter, inside.enter_normal);
+    add(inside.leave, inside.leave_normal);
 }
 
 void intersect_plane(const Plane& p, Hits& out) {
@@ -172,11 +190,6 @@ struct ConeSide {
     Vec3 normal(double t) const {
         const Vec3 n = o + t * d - radius(t) * slope * axis;
         return n == Vec3(0) ? (slope < 0 ? axis : -axis) : n; // the apex
-    }
-    Vec2 uv(double t, double height) const {
-        const Frame frame = make_frame(axis);
-        const Vec3 p = o + t * d;
-        return {turn_of(glm::dot(p, frame.x), glm::dot(p, frame.y)), (oz + t * dz) / height};
     }
 };
 
@@ -244,7 +257,7 @@ void intersect_cone(const Cone& cone, Hits& out) {
             i == 0 ? roots.low : roots.high, [&](double x) { return s.value(x); },
             [&](double x) { return s.derivative(x); });
         const double z = s.oz + t * s.dz;
-        if (z >= 0 && z <= height) out.add(t, s.normal(t), s.uv(t, height));
+        if (z >= 0 && z <= height) out.add(t, s.normal(t));
     }
 }
 
@@ -306,7 +319,8 @@ void intersect_torus(const Torus& torus, Hits& out) {
     for (int i = 0; i < count; ++i) {
         const Vec3 p = f.o + roots[i] * f.d;
         const double q = std::hypot(p.x, p.z) - f.major;
-        out.add((nearest + roots[i] * outer) / speed, f.gradient(p), {turn_of(p.x, p.z), turn_of(q, p.y)});
+        const double around = turn_of(-p.x, p.z), across = turn_of(-q, -p.y); // from the far sides, as POV-Ray has it
+        out.add((nearest + roots[i] * outer) / speed, f.gradient(p), {around, across});
     }
 }
 
@@ -338,6 +352,11 @@ Bounds shape_bounds(const Shape& shape) {
                 for (const Vec3& point : p.points) b = merge(b, point);
                 return b;
             },
+            [](const Isosurface& s) { return bounds_of(s); },
+            [](const Blob& s) { return bounds_of(s); },
+            [](const HeightField& s) { return bounds_of(s); },
+            [](const JuliaFractal& s) { return bounds_of(s); },
+            [](const Parametric& s) { return bounds_of(s); },
             [](const Quadric& s) { return bounds_of(s); },
             [](const PolynomialSurface& s) { return bounds_of(s); },
             [](const Superellipsoid& s) { return bounds_of(s); },
@@ -363,6 +382,11 @@ const char* shape_name(const Shape& shape) {
                           [](const Disc&) { return "disc"; },
                           [](const Mesh&) { return "mesh"; },
                           [](const BicubicPatch&) { return "bicubic_patch"; },
+                          [](const Isosurface&) { return "isosurface"; },
+                          [](const Blob&) { return "blob"; },
+                          [](const HeightField&) { return "height_field"; },
+                          [](const JuliaFractal&) { return "julia_fractal"; },
+                          [](const Parametric&) { return "parametric"; },
                           [](const Quadric&) { return "quadric"; },
                           [](const PolynomialSurface&) { return "poly"; },
                           [](const Superellipsoid&) { return "superellipsoid"; },
@@ -377,7 +401,7 @@ const char* shape_name(const Shape& shape) {
                       shape);
 }
 
-int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits) {
+int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits, int enough) {
     hits.clear();
     Hits out{ray, hits};
     std::visit(Overload{
@@ -392,6 +416,11 @@ int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits) {
                    [&](const Disc& d) { intersect_disc(d, out); },
                    [](const Mesh&) {},
                    [](const BicubicPatch&) {},
+                   [&](const Isosurface& s) { intersect(s, ray, hits, enough); },
+                   [&](const Blob& s) { intersect(s, ray, hits, enough); },
+                   [&](const HeightField& s) { intersect(s, ray, hits, enough); },
+                   [&](const JuliaFractal& s) { intersect(s, ray, hits, enough); },
+                   [](const Parametric&) {},
                    [&](const Quadric& s) { intersect(s, ray, hits); },
                    [&](const PolynomialSurface& s) { intersect(s, ray, hits); },
                    [&](const Superellipsoid& s) { intersect(s, ray, hits); },
@@ -405,6 +434,13 @@ int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits) {
                },
                shape);
     return static_cast<int>(hits.size());
+}
+
+bool has_uv(const Shape& shape) {
+    if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->data && !mesh->data->uvs.empty();
+    return std::holds_alternative<Sphere>(shape) || std::holds_alternative<Box>(shape) ||
+           std::holds_alternative<Torus>(shape) || std::holds_alternative<Lathe>(shape) ||
+           std::holds_alternative<Sor>(shape) || std::holds_alternative<Ovus>(shape);
 }
 
 bool inside_shape(const Shape& shape, Vec3 p) {
@@ -426,6 +462,11 @@ bool inside_shape(const Shape& shape, Vec3 p) {
             [&](const Disc& d) { return glm::dot(d.normal, p - d.center) <= 0; },
             [](const Mesh&) { return false; },
             [](const BicubicPatch&) { return false; },
+            [&](const Isosurface& s) { return is_inside(s, p); },
+            [&](const Blob& s) { return is_inside(s, p); },
+            [&](const HeightField& s) { return is_inside(s, p); },
+            [&](const JuliaFractal& s) { return is_inside(s, p); },
+            [](const Parametric&) { return false; },
             [&](const Quadric& s) { return is_inside(s, p); },
             [&](const PolynomialSurface& s) { return is_inside(s, p); },
             [&](const Superellipsoid& s) { return is_inside(s, p); },
@@ -442,7 +483,8 @@ bool inside_shape(const Shape& shape, Vec3 p) {
 
 bool has_endless_inside(const Shape& shape) {
     if (const auto* quadric = std::get_if<Quadric>(&shape)) return has_endless_inside(*quadric);
-    return std::holds_alternative<Plane>(shape) || std::holds_alternative<Disc>(shape);
+    return std::holds_alternative<Plane>(shape) || std::holds_alternative<Disc>(shape) ||
+           std::holds_alternative<HeightField>(shape);
 }
 
 } // namespace pnr

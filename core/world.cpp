@@ -7,6 +7,7 @@
 #include "core/mesh_io.h"
 #include "core/mesh_repair.h"
 #include "core/probe.h"
+#include "core/shape_field.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +33,8 @@ template <class... F>
 struct Overload : F... {
     using F::operator()...;
 };
+template <class... F>
+Overload(F...) -> Overload<F...>; // clang 14 does not find it by itself
 
 bool is_finite(const Shape& shape) {
     return std::visit(
@@ -76,6 +79,7 @@ struct Assets {
     std::map<const MeshData*, std::shared_ptr<const MeshData>> smooth;
     std::map<std::pair<std::string, bool>, std::shared_ptr<const Image<glm::vec4>>> images;
     std::map<Work, std::shared_ptr<const MeshData>> worked_on;
+    std::map<const void*, Shape> fields; // by what was said of them
 
     std::vector<std::string> notes;
 
@@ -93,6 +97,21 @@ struct Assets {
         const bool smooth_already = !data->normals.empty();
         if (said.repair || said.subdivide > 0 || said.simplify > 0) data = worked(data, said);
         return (said.smooth || smooth_already) && data->normals.empty() ? smoothed(data) : data;
+    }
+
+    // Isosurfaces and height fields made ready for rays, parametric shapes as meshes, once for all copies.
+    Shape field(const Shape& said, const void* key) {
+        const auto [entry, is_new] = fields.try_emplace(key);
+        if (!is_new) return entry->second;
+        if (const auto* parametric = std::get_if<Parametric>(&said)) {
+            Mesh mesh;
+            mesh.data = std::make_shared<const MeshData>(tessellate(*parametric));
+            mesh.smooth = true;
+            entry->second = std::move(mesh);
+        } else {
+            entry->second = prepare_field_shape(said);
+        }
+        return entry->second;
     }
 
     // In the scene's working values.
@@ -154,6 +173,14 @@ bool is_plain_union(const Object& object) {
     return !object.shape && object.combination == Combination::unite && !object.inverse;
 }
 
+// Tells apart what must be made ready for rays; null for all other shapes.
+const void* field_key(const Shape& shape) {
+    if (const auto* s = std::get_if<Isosurface>(&shape)) return s->data.get();
+    if (const auto* s = std::get_if<HeightField>(&shape)) return s->data.get();
+    if (const auto* s = std::get_if<Parametric>(&shape)) return s->data.get();
+    return nullptr;
+}
+
 const char* group_name(Combination combination) {
     switch (combination) {
     case Combination::merge:
@@ -170,6 +197,7 @@ const char* group_name(Combination combination) {
 // What a child gets from its parents where it says nothing itself.
 struct Inherited {
     const Texture* texture = nullptr;
+    const Texture* interior_texture = nullptr;
     const Interior* interior = nullptr;
     const PhotonRoles* photons = nullptr;
     const PaintWord* npr = nullptr;
@@ -178,6 +206,7 @@ struct Inherited {
     int object = 0;
     bool cutaway = false;
     bool unseen = false; // clips: they have no surface
+    bool double_illuminate = false;
     bool no_shadow = false, no_image = false, no_reflection = false;
 };
 
@@ -187,6 +216,8 @@ struct Builder {
     Assets assets;
     std::vector<GeometryItem> items; // in scene space until the offset is known
     std::vector<CsgNode> solids{};
+    std::vector<Surface> parts{}; // of shapes with textures of their own; they come behind the items' surfaces
+    std::map<const Interior*, int> interior_ids{};
 
     int number_object(const Object& object, const PaintWord* word) {
         WorldObject entry;
@@ -199,18 +230,26 @@ struct Builder {
     }
 
     int add_material(const Inherited& from) {
-        if (!from.texture && !from.interior && !from.photons) return 0;
+        if (!from.texture && !from.interior_texture && !from.interior && !from.photons) return 0;
         Material material;
-        if (from.texture) {
-            material.pigment = from.texture->pigment;
-            material.finish = from.texture->finish;
+        if (from.texture) material.texture = *from.texture;
+        if (from.interior_texture) material.interior_texture = *from.interior_texture;
+        if (from.interior) {
+            material.interior = *from.interior;
+            material.interior_id =
+                interior_ids.try_emplace(from.interior, static_cast<int>(interior_ids.size()) + 1).first->second;
         }
-        if (from.interior) material.interior = *from.interior;
+        material.double_illuminate = from.double_illuminate;
         if (from.photons) material.photons = *from.photons;
-        if (auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern))
-            picture->image = assets.image(*picture, scene.assumed_gamma);
+        for (Texture* texture : {&material.texture, material.interior_texture ? &*material.interior_texture : nullptr})
+            if (texture) for_each_pattern(*texture, [&](Pattern& pattern) { prepare_pattern(pattern); });
         world.materials.push_back(std::move(material));
         return static_cast<int>(world.materials.size()) - 1;
+    }
+
+    void prepare_pattern(Pattern& pattern) {
+        if (auto* picture = std::get_if<ImagePattern>(&pattern.kind))
+            picture->image = assets.image(*picture, scene.assumed_gamma);
     }
 
     void add_item(GeometryItem item, Surface surface) {
@@ -225,6 +264,7 @@ struct Builder {
     Inherited inherit(const Object& object, Inherited from, bool top) {
         require(is_finite(object.transform), object.said_at, "a transform is not finite");
         if (object.texture) from.texture = &*object.texture;
+        if (object.interior_texture) from.interior_texture = &*object.interior_texture;
         if (object.interior) from.interior = &*object.interior;
         if (object.photons) from.photons = &*object.photons;
         if (object.npr) from.npr = &*object.npr;
@@ -232,6 +272,7 @@ struct Builder {
         from.no_shadow |= object.no_shadow;
         from.no_image |= object.no_image;
         from.no_reflection |= object.no_reflection;
+        from.double_illuminate |= object.double_illuminate;
         from.cutaway |= object.cutaway_textures;
         for (const Object& bound : object.bounds) from.limits = common(from.limits, object_bounds(bound));
         return from;
@@ -325,6 +366,8 @@ struct Builder {
             flat.data = std::make_shared<const MeshData>(tessellate(*patch));
             flat.smooth = true;
             item.form = Shape(std::move(flat));
+        } else if (const void* key = field_key(*object.shape)) {
+            item.form = assets.field(*object.shape, key);
         } else {
             item.form = *object.shape;
         }
@@ -334,8 +377,37 @@ struct Builder {
         surface.no_shadow = from.no_shadow;
         surface.no_image = from.no_image;
         surface.no_reflection = from.no_reflection;
+        const Mesh* from_file = object.shape ? std::get_if<Mesh>(&*object.shape) : nullptr;
+        const bool overruled = from_file && !from_file->file.empty() && from.texture; // a file's own textures
+        if (const PartTextures* textures = part_textures(item); textures && !from.unseen && !overruled)
+            item.first_part = add_parts(*textures, from, object.transform, surface);
         add_item(std::move(item), surface);
         return static_cast<std::uint32_t>(items.size()) - 1;
+    }
+
+    static const PartTextures* part_textures(const GeometryItem& item) {
+        const Shape& shape = std::get<Shape>(item.form);
+        if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->data->textures.get();
+        if (const auto* blob = std::get_if<Blob>(&shape)) return blob->textures.get();
+        return nullptr;
+    }
+
+    // The number of the first among `parts`.
+    std::uint32_t add_parts(const PartTextures& textures, Inherited from, const Transform& to_scene, Surface surface) {
+        const auto first = static_cast<std::uint32_t>(parts.size());
+        for (Texture texture : textures.list) {
+            transform_texture(texture, to_scene);
+            from.texture = &texture;
+            surface.material = add_material(from);
+            parts.push_back(surface);
+        }
+        return first;
+    }
+
+    void append_parts() {
+        for (GeometryItem& item : items)
+            if (item.first_part != no_texture) item.first_part += static_cast<std::uint32_t>(items.size());
+        world.surfaces.insert(world.surfaces.end(), parts.begin(), parts.end());
     }
 
     // The emitting area of a light, with the light's position as the origin of its own space.
@@ -391,8 +463,10 @@ void Builder::move_to_center() {
         item.to_world = then(item.to_world, move);
         item.limits = {item.limits.low - world.offset, item.limits.high - world.offset};
     }
-    for (Material& material : world.materials)
-        material.pigment.transform = then(material.pigment.transform, move);
+    for (Material& material : world.materials) {
+        transform_texture(material.texture, move);
+        if (material.interior_texture) transform_texture(*material.interior_texture, move);
+    }
     for (WorldObject& object : world.objects) {
         object.paint.field_point -= world.offset;
         for (Seed& seed : object.paint.seeds) seed.position -= world.offset;
@@ -441,10 +515,12 @@ World build_world(const Scene& scene, const Settings& settings) {
     for (const Object& object : scene.objects) builder.add_object(object, {}, true);
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         if (scene.lights[i].emitter) builder.add_emitter(scene.lights[i], static_cast<int>(i));
+    builder.append_parts();
     builder.move_to_center();
     builder.find_object_bounds(seen_bounds(builder.items, builder.solids));
     world.background = scene.background;
     world.ambient_light = scene.ambient_light;
+    world.irid_wavelength = scene.irid_wavelength;
     world.has_paint =
         std::any_of(world.objects.begin(), world.objects.end(), [](const WorldObject& o) { return o.npr; });
     world.has_specular = std::any_of(world.materials.begin(), world.materials.end(), is_specular);
@@ -458,7 +534,11 @@ World build_world(const Scene& scene, const Settings& settings) {
 // -----------------------------------------------------------------------------------------------------
 
 std::optional<Hit> closest_hit(const World& world, const Ray& ray, RayKind kind) {
-    return closest_hit(*world.geometry, ray, kind);
+    std::optional<Hit> hit = closest_hit(*world.geometry, ray, kind);
+    if (!hit) return hit;
+    const Shape* shape = std::get_if<Shape>(&geometry_items(*world.geometry)[hit->leaf].form);
+    if (!shape || !has_uv(*shape)) hit->uv = Vec2(hit->position + world.offset);
+    return hit;
 }
 
 bool is_occluded(const World& world, const Ray& ray, RayKind kind) {

@@ -6,6 +6,7 @@
 // its components, and a shorter vector beside a longer one is filled up with zeros.
 #pragma once
 
+#include "parser/arithmetic.h"
 #include "parser/parser.h"
 
 #include <cmath>
@@ -14,10 +15,6 @@
 #include <utility>
 
 namespace pnr {
-
-// Where an expression stands: whether `<` and `>` between operands compare. In blocks and inside vectors they
-// don't: there `<` starts the next vector and `>` closes this one.
-enum class Angles : bool { bracket, compare };
 
 VectorValue parse_operand_expression(Parser& p,
                                      Angles angles); // numbers, vectors and colours; finite or an error
@@ -31,6 +28,8 @@ inline VectorValue scalar(double value) { return {{value, 0, 0, 0, 0}, 1, false}
 inline bool is_true(double value) { return std::abs(value) > 1e-10; }   // POV-Ray's idea of truth
 double scalar_of(Parser& p, const VectorValue& value, const Token& at); // error if it is a vector
 void promote(VectorValue& value, int size);
+
+int component_index(Keyword word); // of `.x`, `.red` ...; -1: no such component
 
 bool at_string(Parser& p);
 

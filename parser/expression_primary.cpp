@@ -5,10 +5,35 @@
 #include "parser/color_space.h"
 #include "parser/expression.h"
 #include "parser/function.h"
+#include "parser/quick_expression.h"
+#include "parser/spline.h"
 
 #include <fmt/format.h>
 
 namespace pnr {
+
+int component_index(Keyword word) {
+    switch (word) {
+    case "x"_kw:
+    case "u"_kw:
+    case "red"_kw:
+        return 0;
+    case "y"_kw:
+    case "v"_kw:
+    case "green"_kw:
+        return 1;
+    case "z"_kw:
+    case "blue"_kw:
+        return 2;
+    case "t"_kw:
+    case "filter"_kw:
+        return 3;
+    case "transmit"_kw:
+        return 4;
+    default:
+        return -1;
+    }
+}
 
 namespace {
 
@@ -42,9 +67,11 @@ const Value* sample(const ArrayValue& array) {
     return nullptr;
 }
 
-// A function's name with `(` behind it, the name being in the buffer.
+// The name of a function or spline with `(` behind it, the name being in the buffer.
 bool is_call(Parser& p, const Value& value) {
-    if (!std::holds_alternative<std::shared_ptr<const Function>>(value.data)) return false;
+    if (!std::holds_alternative<std::shared_ptr<const Function>>(value.data) &&
+        !std::holds_alternative<std::shared_ptr<const Spline>>(value.data))
+        return false;
     const TokenFrame& frame = p.in.frames.back();
     return frame.position < frame.end && is(frame.tokens[frame.position], '(');
 }
@@ -59,30 +86,6 @@ const Value* shown_value(Parser& p, const Token& token) {
     if (frame.position == frame.end || !is(frame.tokens[frame.position], '[')) return value;
     const Value* element = sample(**array);
     return element ? element : value;
-}
-
-// `.x`, `.red` ...: the component's index, or -1.
-int component_index(Keyword word) {
-    switch (word) {
-    case "x"_kw:
-    case "u"_kw:
-    case "red"_kw:
-        return 0;
-    case "y"_kw:
-    case "v"_kw:
-    case "green"_kw:
-        return 1;
-    case "z"_kw:
-    case "blue"_kw:
-        return 2;
-    case "t"_kw:
-    case "filter"_kw:
-        return 3;
-    case "transmit"_kw:
-        return 4;
-    default:
-        return -1;
-    }
 }
 
 VectorValue take_component(Parser& p, const VectorValue& value) {
@@ -131,7 +134,9 @@ VectorValue parse_word(Parser& p) {
     if (lookup(p.in, token.symbol)) {
         const Value& value = take_variable(p);
         if (const auto* function = std::get_if<std::shared_ptr<const Function>>(&value.data))
-            return scalar(call_function(p, token, std::shared_ptr<const Function>(*function)));
+            return call_function(p, token, std::shared_ptr<const Function>(*function));
+        if (const auto* spline = std::get_if<std::shared_ptr<const Spline>>(&value.data))
+            return call_spline(p, token, std::shared_ptr<const Spline>(*spline));
         return operand_from(p, value, token);
     }
     if (is_keyword(token.symbol)) {
@@ -275,11 +280,10 @@ VectorValue color_components(Parser& p, Keyword word) {
     promote(value, 5);
     VectorValue color = value;
     color.is_color = true;
-    if (!has_filter && has_transmit && !value.is_color) { // the fourth number is transmit
+    if (!has_filter && has_transmit) { // the fourth number is transmit, even a colour's filter
         color.v[3] = 0;
         color.v[4] = value.v[3];
     }
-    if (!has_filter && !has_transmit && !value.is_color) color.v[3] = color.v[4] = 0;
     if (is_srgb)
         for (int i = 0; i < 3; ++i)
             color.v[i] = to_working(srgb_to_linear(color.v[i]), p.scene.assumed_gamma);
@@ -415,20 +419,6 @@ void fill_array(Parser& p, ArrayValue& array, std::size_t dimension, std::size_t
 
 } // namespace
 
-namespace {
-
-// `texture {...} texture {...}` is one texture of layers; the lowest one, which is opaque, stands for all.
-void skip_layers(Parser& p, const DeclaredBlock& block_value) {
-    if (!std::holds_alternative<Texture>(block_value)) return;
-    while (is(peek_operator(p), "texture"_kw)) {
-        const Token layer = peek(p);
-        warn(p, layer, "layers of textures are not supported: only the lowest one is used");
-        parse_declared_block(p);
-    }
-}
-
-} // namespace
-
 Value array_value(Parser& p) {
     const Token name = next(p);
     std::vector<int> dimensions;
@@ -441,7 +431,7 @@ Value array_value(Parser& p) {
         if (size < 1) fail(p, first, "an array needs at least one element");
         count *= size;
         if (count > static_cast<double>(p.in.options.budgets.array_elements))
-            stop(p, first,
+            stop_at_limit(p, first, &Budgets::array_elements,
                  fmt::format("the array has more than {} elements", p.in.options.budgets.array_elements));
         expect(p, ']', "to close the size");
         dimensions.push_back(static_cast<int>(size));
@@ -458,6 +448,8 @@ Value array_value(Parser& p) {
 }
 
 Value parse_value(Parser& p) {
+    if (VectorValue quick; quick_expression(p, Angles::compare, quick))
+        return quick.size == 1 ? Value{quick.v[0]} : Value{quick};
     const Token token = peek(p);
     const Nesting nesting(p, token);
     if (token.kind == TokenKind::string) return Value{parse_string(p)};
@@ -466,15 +458,16 @@ Value parse_value(Parser& p) {
             if (!is_numeric(*value) && !is_call(p, *value)) return take_variable(p);
         } else if (is(token, "function"_kw)) {
             return Value{parse_function(p)};
+        } else if (is(token, "spline"_kw)) {
+            next(p);
+            return Value{parse_spline(p)};
         } else if (is(token, "array"_kw)) {
             return array_value(p);
         } else if (at_string(p)) {
             return Value{parse_string(p)};
         } else if (!at_expression(p)) {
-            if (auto block_value = parse_declared_block(p)) {
-                skip_layers(p, *block_value);
+            if (auto block_value = parse_declared_block(p))
                 return Value{std::make_shared<const DeclaredBlock>(std::move(*block_value))};
-            }
         }
     }
     VectorValue number = parse_operand_expression(p, Angles::compare);

@@ -73,7 +73,7 @@ inline constexpr auto reserved_words = std::to_array<std::string_view>({
     "shadowless", "sin", "sine_wave", "sinh", "sint16be", "sint16le", "sint32be", "sint32le", "sint8",
     "size", "sky", "sky_sphere", "slice", "slope", "slope_map", "smooth", "smooth_triangle", "solid",
     "sor", "spacing", "specular", "sphere", "sphere_sweep", "spherical", "spiral1", "spiral2", "spline",
-    "split_union", "spotlight", "spotted", "sqr", "sqrt", "srgb", "srgbf", "srgbft", "srgbt",
+    "split_union", "spotlight", "spotted", "sqr", "sqrt", "square", "srgb", "srgbf", "srgbft", "srgbt",
     "statistics", "str", "strcmp", "strength", "strlen", "strlwr", "strupr", "sturm", "substr",
     "subsurface", "sum", "superellipsoid", "switch", "sys", "t", "tan", "tanh", "target", "text",
     "texture", "texture_list", "texture_map", "tga", "thickness", "threshold", "tiff", "tightness",

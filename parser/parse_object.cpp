@@ -38,6 +38,16 @@ ShapeParser find_shape_parser(const Token& word) {
         return parse_mesh2;
     case "bicubic_patch"_kw:
         return parse_bicubic_patch;
+    case "isosurface"_kw:
+        return parse_isosurface;
+    case "blob"_kw:
+        return parse_blob;
+    case "height_field"_kw:
+        return parse_height_field;
+    case "julia_fractal"_kw:
+        return parse_julia_fractal;
+    case "parametric"_kw:
+        return parse_parametric;
     case "quadric"_kw:
         return parse_quadric;
     case "cubic"_kw:
@@ -82,38 +92,20 @@ bool is_group(const Token& word) {
     }
 }
 
-// Objects of POV-Ray's that we know and lack.
-bool is_unsupported_object(const Token& word) {
-    switch (keyword_of(word)) {
-    case "blob"_kw:
-    case "height_field"_kw:
-    case "isosurface"_kw:
-    case "julia_fractal"_kw:
-    case "parametric"_kw:
-        return true;
-    default:
-        return false;
-    }
-}
-
 // ---- modifiers
 // --------------------------------------------------------------------------------------------------
 
-Texture& own_texture(Parser& p, Object& object) {
+// What `pigment`, `normal` and `finish` of an object change.
+TextureLayer& own_layer(Parser& p, Object& object) {
     if (!object.texture) object.texture = p.default_texture;
-    return *object.texture;
+    return object.texture->layers.back();
 }
 
-bool is_see_through(const Pigment& pigment) {
-    return std::ranges::any_of(
-        pigment.map, [](const ColorStop& stop) { return stop.color.filter + stop.color.transmit > 0; });
-}
-
-// A second texture lies on the first, as a layer: where it is opaque, it alone is seen.
-void add_texture(Parser& p, const Token& word, Object& object, bool layered) {
+// A second texture lies on the first, as a layer.
+void add_texture(Parser& p, Object& object) {
     const Texture texture = parse_texture(p, p.default_texture);
-    if (layered && is_see_through(texture.pigment))
-        warn_unsupported(p, word, "layered textures", "the lowest layer is drawn alone");
+    if (object.texture)
+        add_layer(p, *object.texture, texture, true);
     else
         object.texture = texture;
 }
@@ -125,25 +117,25 @@ void add_material(Parser& p, Object& object) {
     else
         material = parse_material(p);
     if (material.texture) object.texture = material.texture;
+    if (material.interior_texture) object.interior_texture = material.interior_texture;
     if (material.interior) object.interior = material.interior;
 }
 
 bool parse_texture_modifier(Parser& p, Object& object) {
-    const Token word = peek(p);
-    switch (keyword_of(word)) {
+    switch (keyword_of(peek(p))) {
     case "texture"_kw:
-        next(p), add_texture(p, word, object, object.texture.has_value());
+        next(p), add_texture(p, object);
         return true;
     case "pigment"_kw: {
         next(p);
-        Texture& texture = own_texture(p, object);
-        texture.pigment = parse_pigment(p, texture.pigment);
+        TextureLayer& layer = own_layer(p, object);
+        layer.pigment = parse_pigment(p, layer.pigment);
         return true;
     }
     case "finish"_kw: {
         next(p);
-        Texture& texture = own_texture(p, object);
-        texture.finish = parse_finish(p, texture.finish);
+        TextureLayer& layer = own_layer(p, object);
+        layer.finish = parse_finish(p, layer.finish);
         return true;
     }
     case "interior"_kw:
@@ -152,13 +144,14 @@ bool parse_texture_modifier(Parser& p, Object& object) {
     case "material"_kw:
         next(p), add_material(p, object);
         return true;
-    case "normal"_kw:
-        warn_unsupported(p, next(p), "normal", "surfaces are left smooth");
-        skip_block(p, "normal");
+    case "normal"_kw: {
+        next(p);
+        TextureLayer& layer = own_layer(p, object);
+        layer.normal = parse_normal(p, layer.normal.value_or(Normal{}));
         return true;
+    }
     case "interior_texture"_kw:
-        warn_unsupported(p, next(p), "interior_texture", "both sides are alike");
-        skip_block(p, "interior_texture");
+        next(p), object.interior_texture = parse_texture(p, p.default_texture);
         return true;
     case "uv_mapping"_kw:
         next(p), parse_optional_bool(p);
@@ -222,7 +215,9 @@ bool parse_flag(Parser& p, Object& object) {
     case "no_radiosity"_kw:
         next(p), parse_optional_bool(p);
         return true;
-    case "double_illuminate"_kw: // both sides are lit always
+    case "double_illuminate"_kw:
+        next(p), object.double_illuminate = parse_optional_bool(p);
+        return true;
     case "split_union"_kw:
     case "sturm"_kw:
     case "hierarchy"_kw:
@@ -387,10 +382,7 @@ std::optional<Object> parse_object(Parser& p) {
         object = parse_group(p, next(p));
     else if (accept(p, "object"_kw))
         object = parse_object_reference(p);
-    else if (is_unsupported_object(word)) {
-        warn_unsupported(p, next(p), token_text(p, word, false), "such objects are left out");
-        skip_block(p, token_text(p, word, false));
-    } else
+    else
         return std::nullopt;
     object.said_at = source_ref(p, word);
     charge(p, word, sizeof(Object));

@@ -112,9 +112,6 @@ bool skip_setting(Parser& p) {
     case "charset"_kw:
         next(p), next(p);
         return true;
-    case "irid_wavelength"_kw:
-        next(p), parse_color(p);
-        return true;
     case "max_intersections"_kw:
     case "mm_per_unit"_kw:
     case "noise_generator"_kw:
@@ -142,6 +139,9 @@ void parse_setting(Parser& p) {
         return;
     case "adc_bailout"_kw:
         next(p), render.adc_bailout = parse_float_in(p, 0, 1, "`adc_bailout`");
+        return;
+    case "irid_wavelength"_kw:
+        next(p), p.scene.irid_wavelength = parse_color(p).rgb;
         return;
     case "ambient_light"_kw:
         next(p), p.scene.ambient_light = parse_color(p).rgb;

@@ -16,7 +16,7 @@ std::string token_text(Parser& p, const Token& token, bool quoted) {
                                                                   : "the end of the expression or file";
     const std::string& text = p.in.sources.files[token.span.source].text;
     constexpr std::size_t longest = 40;
-    std::string shown = text.substr(token.span.begin, token.span.end - token.span.begin);
+    std::string shown = text.substr(token.span.begin, std::min<std::size_t>(token.span.end - token.span.begin, longest + 1));
     if (shown.size() > longest) shown = shown.substr(0, longest) + "...";
     for (char& c : shown)
         if (static_cast<unsigned char>(c) < 0x20) c = ' ';
@@ -49,7 +49,7 @@ void open_block(Parser& p, std::string_view what) {
         fail(p, brace, fmt::format("expected `{{` to start {}, found {}", what, token_text(p, brace)));
     const auto depth = static_cast<std::size_t>(p.in.used.nesting) + p.in.blocks.size();
     if (depth >= static_cast<std::size_t>(p.in.options.budgets.nesting))
-        stop(p, brace, fmt::format("nested deeper than {} levels", p.in.options.budgets.nesting));
+        stop_at_limit(p, brace, &Budgets::nesting, fmt::format("nested deeper than {} levels", p.in.options.budgets.nesting));
     next(p);
     p.in.blocks.push_back({brace, std::string(what), p.in.brace_depth});
 }
@@ -186,6 +186,12 @@ void stop(Parser& p, const Token& at, std::string message, std::string help) {
     throw ParseStop{};
 }
 
+void stop_at_limit(Parser& p, const Token& at, std::int64_t Budgets::*budget, std::string message,
+                   std::string question) {
+    if (!question.empty()) question += "; ";
+    stop(p, at, std::move(message), question + limit_help(p.in.options.budgets, budget));
+}
+
 void error(Parser& p, const Token& at, std::string message, std::string help) {
     record(p, Severity::error, at, std::move(message), std::move(help));
 }
@@ -242,12 +248,15 @@ const char* type_name(const Value& value) {
         return "function";
     case 8:
         return "open file";
+    case 9:
+        return "spline";
     default:
         break;
     }
     static constexpr const char* blocks[] = {
         "object", "texture",   "pigment",   "finish",     "interior", "light source",
-        "camera", "transform", "npr block", "colour map", "material", "block without meaning here"};
+        "camera", "transform", "npr block", "colour map", "pigment map", "normal", "slope map",
+        "normal map", "texture map", "material", "block without meaning here"};
     static_assert(std::size(blocks) == std::variant_size_v<DeclaredBlock>);
     return blocks[std::get<std::shared_ptr<const DeclaredBlock>>(value.data)->index()];
 }

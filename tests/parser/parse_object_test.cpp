@@ -113,14 +113,14 @@ TEST(ParseObject, TransformsApplyToWhatStandsBeforeThem) {
         rotate 90 * y })");
     // +90 degrees about y takes z to x and x to -z, in the left-handed frame.
     expect_near(transform_point(object.transform.matrix, Vec3(0)), {6, 4, -2});
-    expect_near(transform_point(object.texture->pigment.transform.matrix, Vec3(0)), {6, 4, -2});
+    expect_near(transform_point(object.texture->pigment.pattern.transform.matrix, Vec3(0)), {6, 4, -2});
     expect_near(object.npr->style.seeds[0].position, {0, 1, 0});
     expect_near(object.npr->style.seeds[0].direction, {0, 0, -1});
 }
 
 TEST(ParseObject, ATextureSaidAfterATransformStaysBehind) {
     const Object object = object_of("sphere { 0, 1 translate x pigment { checker rgb 0, rgb 1 } }");
-    EXPECT_TRUE(is_identity(object.texture->pigment.transform));
+    EXPECT_TRUE(is_identity(object.texture->pigment.pattern.transform));
 }
 
 TEST(ParseObject, UnionTransformsReachTheChildren) {
