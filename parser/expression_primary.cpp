@@ -12,29 +12,6 @@
 
 namespace pnr {
 
-int component_index(Keyword word) {
-    switch (word) {
-    case "x"_kw:
-    case "u"_kw:
-    case "red"_kw:
-        return 0;
-    case "y"_kw:
-    case "v"_kw:
-    case "green"_kw:
-        return 1;
-    case "z"_kw:
-    case "blue"_kw:
-        return 2;
-    case "t"_kw:
-    case "filter"_kw:
-        return 3;
-    case "transmit"_kw:
-        return 4;
-    default:
-        return -1;
-    }
-}
-
 namespace {
 
 [[noreturn]] void unknown_identifier(Parser& p, const Token& token) {

@@ -101,7 +101,9 @@ TEST(HeightField, StandsWherePovRayHasIt) {
         ASSERT_EQ(hits.size(), 1u);
         EXPECT_NEAR(5 - hits[0].t, k.y, 2e-5);
         // On the diagonal either half may be met.
-        if (k.x + k.z != 1) EXPECT_GT(glm::dot(glm::normalize(hits[0].normal), k.flat), 1 - 1e-6);
+        if (k.x + k.z != 1) {
+            EXPECT_GT(glm::dot(glm::normalize(hits[0].normal), glm::normalize(k.flat)), 1 - 1e-6);
+        }
         EXPECT_EQ(hits[0].shading, Vec3(0));
         hits.clear();
         intersect(smooth, {{k.x, 5, k.z}, {0, -1, 0}, 0, infinity}, hits, all_hits);

@@ -94,7 +94,9 @@ void expect_sign_changes(const Isosurface& shape, int rays, double step, int see
                        behind = is_inside(shape, p + 1e-7 * direction);
             EXPECT_NE(before, behind) << "ray " << i;
             EXPECT_EQ(glm::dot(hits[k].normal, direction) < 0, behind) << "ray " << i;
-            if (k > 0) EXPECT_LT(hits[k - 1].t, hits[k].t);
+            if (k > 0) {
+                EXPECT_LT(hits[k - 1].t, hits[k].t);
+            }
         }
         bool inside = is_inside(shape, origin);
         std::size_t next = 0;

@@ -46,10 +46,12 @@ TEST(ParseFieldShapes, BlobComponentsKeepTheirTextures) {
     EXPECT_EQ(blob.data->components[1].texture, no_texture);
     EXPECT_EQ(blob.data->components[2].texture, 1u);
     const World world = build_world(scene, {});
-    const auto hit = closest_hit(world, {Vec3(-0.2, 0, -5) - world.offset, {0, 0, 1}}, RayKind::camera);
+    const auto hit = closest_hit(world, {Vec3(0.8, 0, -5) - world.offset, {0, 0, 1}}, RayKind::camera);
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->shares[0] + hit->shares[1] + hit->shares[2], 1, 1e-6);
     EXPECT_GT(hit->shares[0], hit->shares[1]);
+    EXPECT_GT(hit->shares[1], hit->shares[2]);
+    EXPECT_GT(hit->shares[2], 0);
 }
 
 TEST(ParseFieldShapes, IsosurfacesHaveLidsUnlessOpen) {
