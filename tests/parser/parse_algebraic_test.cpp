@@ -77,6 +77,20 @@ TEST(ParseAlgebraic, IsPovrays) {
                   });
 }
 
+TEST(ParseShapes, WithoutSizeAreTakenAsInPovray) {
+    for (const std::string text :
+         {"sphere { 0, 0 pigment { rgb 1 } }", "cone { 0, 0, y, 0 pigment { rgb 1 } }",
+          "torus { 1, 0 pigment { rgb 1 } }", "disc { 0, y, 1, 2 pigment { rgb 1 } }"}) {
+        EXPECT_TRUE(says(diagnostics_of(text), "nothing is seen of it")) << text;
+        const auto probe = make_probe(scene_of(text).objects.at(0));
+        EXPECT_FALSE(trace(*probe, {0.3, 5, 0.2}, {0, -1, 0}));
+        EXPECT_FALSE(trace(*probe, {-5, 0.1, 0.2}, {1, 0, 0}));
+    }
+    const Bounds disc = object_bounds(scene_of("disc { 0, y, 1 pigment { rgb 1 } }").objects.at(0));
+    EXPECT_NEAR(disc.high.x, 1, 1e-3); // POV-Ray: 1.000, 0.001, 1.000
+    EXPECT_NEAR(disc.high.y, 0, 2e-3);
+}
+
 TEST(ParseAlgebraic, SaysWhatIsWrong) {
     EXPECT_TRUE(says(diagnostics_of("cubic { <1, 2, 3> }"), "has 20 coefficients, here are 3"));
     EXPECT_TRUE(says(diagnostics_of("poly { 16, <1> }"), "order"));
