@@ -525,6 +525,10 @@ Shape parse_bicubic_patch(Parser& p) {
         case "accuracy"_kw:
             next(p), parse_float(p);
             break;
+        case "uv_vectors"_kw:
+            next(p);
+            for (Vec2& uv : patch.corner_uv) uv = parse_uv(p), accept_comma(p);
+            break;
         default:
             for (Vec3& point : patch.points) point = parse_item(p);
             return patch;
