@@ -34,6 +34,8 @@ LoadOptions load_options(const Options& options, const AnimationFrame& frame) {
         }
     }
     load.declares = options.declares;
+    load.budgets = options.budgets;
+    load.allow_write = options.allow_write;
     load.width = options.width;
     load.height = options.height;
     return load;

@@ -79,7 +79,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 // What CLI11 fills and still needs a look.
 struct Words {
     std::string scene, size, crop, frames, aov, at, to, help;
-    std::vector<std::string> declares, outputs, library;
+    std::vector<std::string> declares, outputs, library, limits;
     bool no_prune = false;
 };
 
@@ -91,6 +91,13 @@ void add_scene_options(CLI::App& app, Options& options, Words& words) {
         ->type_name("DIR")
         ->allow_extra_args(false);
     app.add_flag("--werror", options.werror, "Take warnings for errors");
+    app.add_option("--limit", words.limits,
+                   "Let a scene use more, or less, than it may by default; `--limit help` lists the limits")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
+    app.add_option("--allow-write", options.allow_write,
+                   "Let the scene's #fopen write files below this folder; else they stay in memory")
+        ->type_name("DIR");
 }
 
 void add_size_options(CLI::App& app, Options& options, Words& words) {
@@ -220,6 +227,9 @@ void finish_options(Options& options, const Words& words) {
             throw UsageError(fmt::format("-D {}: a declaration is said as NAME=EXPR", declare));
         options.declares.emplace_back(declare.substr(0, equals), declare.substr(equals + 1));
     }
+    for (const std::string& said : words.limits)
+        if (const std::string wrong = set_limit(options.budgets, said); !wrong.empty())
+            throw UsageError(fmt::format("--limit {}: {}", said, wrong));
     if (options.width) options.width = to_side(*options.width, "-W");
     if (options.height) options.height = to_side(*options.height, "-H");
     if (!words.size.empty()) {
@@ -312,6 +322,8 @@ std::string help_text(const std::string& command) {
 CommandLine parse_command_line(std::vector<std::string> arguments) {
     arguments = from_povray_options(std::move(arguments));
     if (arguments.empty()) throw UsageError("a command is expected; `pnr help` lists them");
+    for (std::size_t i = 0; i + 1 < arguments.size(); ++i)
+        if (arguments[i] == "--limit" && arguments[i + 1] == "help") return {{}, limits_help({})};
     Parsing parsing;
     CLI::App& app = parsing.app;
     if (arguments[0][0] != '-' && !is_command(app, arguments[0])) refuse_command(app, arguments[0]);

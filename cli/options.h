@@ -5,6 +5,7 @@
 
 #include "core/image.h"
 #include "core/settings.h"
+#include "parser/limits.h"
 
 #include <array>
 #include <cstdint>
@@ -39,6 +40,8 @@ struct Options {
     std::optional<std::uint64_t> seed;
     std::vector<std::pair<std::string, std::string>> declares;
     std::vector<std::filesystem::path> library;
+    Budgets budgets; // --limit
+    std::filesystem::path allow_write; // #fopen may write files below it; empty: nowhere
     std::optional<CropWord> crop;
     std::optional<FrameRange> frames;
     double clock = 0; // of a single picture

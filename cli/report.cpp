@@ -49,11 +49,7 @@ Diagnostic as_diagnostic(const SceneError& error, Sources& sources) {
     while (index < sources.files.size() && sources.files[index].path != at.file) ++index;
     if (index == sources.files.size()) index = sources.add(at.file.empty() ? "scene" : at.file, "");
     const SourceText& source = sources.files[index];
-    std::uint32_t begin = 0;
-    if (at.line >= 1 && static_cast<std::size_t>(at.line) <= source.line_starts.size())
-        begin = source.line_starts[static_cast<std::size_t>(at.line - 1)] +
-                static_cast<std::uint32_t>(std::max(0, at.column - 1));
-    begin = std::min(begin, static_cast<std::uint32_t>(source.text.size()));
+    const std::uint32_t begin = sources.offset(index, {at.line, at.column});
     std::uint32_t end = begin;
     const auto in_word = [&](std::uint32_t i) {
         return std::isalnum(static_cast<unsigned char>(source.text[i])) != 0 || source.text[i] == '_';

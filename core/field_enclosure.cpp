@@ -415,7 +415,7 @@ void field_enclosure(const FieldProgram& program, const FieldBoxes& boxes, Field
                      FieldScratch& scratch) {
     static_assert(sizeof(Row) == 4 * field_lanes * sizeof(double));
     const std::size_t size = program.steps.size() * sizeof(Row) / sizeof(double);
-    if (scratch.size() < size) scratch.resize(size);
+    if (scratch.size() < size) scratch.resize(size, boost::container::default_init);
     Row* rows = reinterpret_cast<Row*>(scratch.data());
     Row* out = rows;
     for (const FieldStep& step : program.steps) {

@@ -170,14 +170,14 @@ bool has_enclosures(const FieldProgram& program) {
 }
 
 double field_value(const FieldProgram& program, Vec3 p, FieldScratch& scratch) {
-    if (scratch.size() < program.steps.size()) scratch.resize(program.steps.size());
+    if (scratch.size() < program.steps.size()) scratch.resize(program.steps.size(), boost::container::default_init);
     return *run<1>(program, &p.x, &p.y, &p.z, scratch.data());
 }
 
 void field_values(const FieldProgram& program, const FieldPoints& points, double (&values)[field_lanes],
                   FieldScratch& scratch) {
     const std::size_t size = program.steps.size() * field_lanes;
-    if (scratch.size() < size) scratch.resize(size);
+    if (scratch.size() < size) scratch.resize(size, boost::container::default_init);
     std::copy_n(run<field_lanes>(program, points.x, points.y, points.z, scratch.data()), field_lanes, values);
 }
 

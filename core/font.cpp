@@ -39,7 +39,6 @@ std::shared_ptr<const std::vector<CurvePiece>> make_outline(const FontGlyph& gly
         const CurvePiece piece = make_piece(curve.degree, curve.points);
         if (piece.low != piece.high) pieces->push_back(piece);
     }
-    orient_pieces(*pieces);
     return pieces;
 }
 

@@ -32,7 +32,7 @@ Vec3 barycentric(const Corners& t, Vec3 p) {
 // The textures of a triangle's corners, by their shares.
 void mix_corners(const GeometryItem& item, const std::array<std::uint32_t, 3>& numbers, Vec3 weights,
                  Hit& hit) {
-    if (numbers[0] == no_texture) return;
+    if (numbers[0] == no_texture || item.first_part == no_texture) return;
     const auto surface = [&](std::size_t k) { return item.first_part + numbers[k]; };
     hit.surface = surface(0);
     if (numbers[0] == numbers[1] && numbers[0] == numbers[2]) return;
@@ -111,7 +111,7 @@ void finish_shape_hit(const Geometry& g, const Ray& ray, const ShapeHit& shape_h
     hit.error = shape_hit_error(g, hit.leaf, ray, shape_hit);
     const Shape* shape = std::get_if<Shape>(&item.form);
     const Blob* blob = shape ? std::get_if<Blob>(shape) : nullptr;
-    if (blob && blob->textures)
+    if (blob && item.first_part != no_texture)
         mix_parts(hit, item, blob_shares(*blob->data, transform_point(item.to_world.inverse, hit.position)));
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/material.h"
 
+#include "core/texture_mix.h"
+
 #include "core/light.h"
 
 #include <algorithm>
@@ -123,10 +125,10 @@ Bsdf make_bsdf(const World& world, const Hit& hit, Vec3 outgoing) {
     if (!(glm::dot(at.normal, outgoing) > 0)) at.normal = bsdf.geometric;
     Sum sum{bsdf};
     const Texture& texture = side_texture(material, bsdf.inside);
-    if (is_plain(texture))
+    if (is_single(hit, texture))
         sum.add_texture(material, texture, at, outgoing, 1);
     else
-        for_each_texture(texture, at, [&](const Texture& plain, const SurfacePoint& here, double share) {
+        for_each_texture(world, hit, bsdf.inside, at, [&](const Texture& plain, const SurfacePoint& here, double share) {
             sum.add_texture(material, plain, here, outgoing, static_cast<float>(share));
         });
     const double length = glm::length(sum.normal);

@@ -11,8 +11,10 @@ namespace pnr {
 namespace {
 
 constexpr int room = max_polynomial_degree + 1;
+constexpr int small_room = 8; // nearly all polynomials are that small: copies of theirs are cheap
 constexpr double unit_roundoff = 0x1p-53;
-using Coefficients = std::array<double, room>;
+template <int Room>
+using Coefficients = std::array<double, static_cast<std::size_t>(Room)>;
 
 constexpr auto make_binomials() {
     std::array<std::array<double, room>, room> c{};
@@ -23,7 +25,22 @@ constexpr auto make_binomials() {
     return c;
 }
 constexpr auto binomials = make_binomials();
+// C(j, i) / C(n, i), by which a coefficient of powers counts in Bernstein form.
+constexpr auto make_weights() {
+    std::array<std::array<std::array<double, small_room>, small_room>, small_room> w{};
+    for (std::size_t n = 0; n < small_room; ++n)
+        for (std::size_t j = 0; j <= n; ++j)
+            for (std::size_t i = 0; i <= j; ++i) w[n][j][i] = binomials[j][i] / binomials[n][i];
+    return w;
+}
+constexpr auto weights = make_weights();
 double binomial(int n, int k) { return binomials[static_cast<std::size_t>(n)][static_cast<std::size_t>(k)]; }
+
+double weight(int n, int j, int i) {
+    return n < small_room ? weights[static_cast<std::size_t>(n)][static_cast<std::size_t>(j)]
+                                   [static_cast<std::size_t>(i)]
+                          : binomial(j, i) / binomial(n, i);
+}
 
 // ---- evaluation
 // ---------------------------------------------------------------------------------------------------
@@ -47,9 +64,11 @@ Pair two_product(double a, double b) { // Dekker's, with Veltkamp's split
 
 // A polynomial in powers. value() has the sign of the polynomial at x, or is 0 where twice the precision does
 // not tell.
+template <int Room>
 struct Powers {
+    static constexpr int capacity = Room;
     int degree = 0;
-    Coefficients c;
+    Coefficients<Room> c{};
 
     double value(double x) const {
         double y = c[static_cast<std::size_t>(degree)], bound = std::abs(y) / 2;
@@ -86,9 +105,11 @@ struct Powers {
 };
 
 // One in Bernstein form on [0, 1].
+template <int Room>
 struct Bernstein {
+    static constexpr int capacity = Room;
     int degree = 0;
-    Coefficients b{}; // times the binomials
+    Coefficients<Room> b{}; // times the binomials
 
     double value(double x) const {
         const double y = 1 - x;
@@ -123,8 +144,9 @@ struct Bernstein {
 // ----------------------------------------------------------------------------------------------------
 
 // Bounds the number of sign changes in b, whose numbers are only known to `slack`.
-int most_changes(const Coefficients& b, int degree, double slack) {
-    constexpr int never = -room - 1;
+template <int Room>
+int most_changes(const Coefficients<Room>& b, int degree, double slack) {
+    constexpr int never = -Room - 1;
     int ends_plus = never, ends_minus = never;
     for (int i = 0; i <= degree; ++i) {
         const double x = b[static_cast<std::size_t>(i)];
@@ -159,6 +181,8 @@ double close_in(const F& f, double a, double b, double fa, double fb) {
 
 template <class F>
 struct Isolation {
+    static constexpr int capacity = F::capacity;
+    using Numbers = Coefficients<capacity>;
     double* roots;
     int most; // that there is room for: the degree
     int count = 0;
@@ -169,14 +193,14 @@ struct Isolation {
     }
 
     // b: f's Bernstein coefficients on [x0, x1], known to `slack`; f0 and f1: its values there.
-    void solve(const F& f, const Coefficients& b, double slack, double x0, double x1, double f0, double f1,
+    void solve(const F& f, const Numbers& b, double slack, double x0, double x1, double f0, double f1,
                int depth) {
         const int n = f.degree;
-        const int changes = most_changes(b, n, slack);
+        const int changes = most_changes<capacity>(b, n, slack);
         if (changes == 0) return;
         if (changes == 1 || n == 1) return bracket(f, x0, x1, f0, f1);
         if (depth == 0) return part_by_derivative(f, b, slack, x0, x1, f0, f1);
-        Coefficients left{}, right = b; // de Casteljau at the middle
+        Numbers left{}, right = b; // de Casteljau at the middle
         for (int k = 0; k <= n; ++k) {
             left[static_cast<std::size_t>(k)] = right[0];
             for (int i = 0; i < n - k; ++i)
@@ -190,15 +214,15 @@ struct Isolation {
         solve(f, right, slack, middle, x1, value, f1, depth - 1);
     }
 
-    void part_by_derivative(const F& f, const Coefficients& b, double slack, double x0, double x1, double f0,
+    void part_by_derivative(const F& f, const Numbers& b, double slack, double x0, double x1, double f0,
                             double f1) {
         const int n = f.degree;
         const F slope = f.derivative();
-        Coefficients d;
+        Numbers d{};
         for (int i = 0; i < n; ++i)
             d[static_cast<std::size_t>(i)] =
                 n * (b[static_cast<std::size_t>(i) + 1] - b[static_cast<std::size_t>(i)]) / (x1 - x0);
-        std::array<double, room> turns;
+        Numbers turns{};
         Isolation<F> inner{turns.data(), n - 1};
         inner.solve(slope, d, 2 * n * slack / (x1 - x0), x0, x1, slope.value(x0), slope.value(x1), 0);
         double a = x0, fa = f0;
@@ -215,21 +239,22 @@ struct Isolation {
 constexpr int halvings = 5; // more of them, or the derivative sooner, was slower on lathes and quartics
 
 // Roots of p in [0, 1].
-int roots_in_unit(const Powers& p, double* roots) {
+template <int Room>
+int roots_in_unit(const Powers<Room>& p, double* roots) {
     const int n = p.degree;
     if (n < 1) return 0;
     // All weights are positive, so that the error is a few roundings of the sum of sizes.
-    Coefficients b;
+    Coefficients<Room> b{};
     double size = 0;
     for (int i = 0; i <= n; ++i) size += std::abs(p.c[static_cast<std::size_t>(i)]);
     for (int j = 0; j <= n; ++j) {
         double sum = 0;
-        for (int i = 0; i <= j; ++i)
-            sum += binomial(j, i) / binomial(n, i) * p.c[static_cast<std::size_t>(i)];
+        for (int i = 0; i <= j; ++i) sum += weight(n, j, i) * p.c[static_cast<std::size_t>(i)];
         b[static_cast<std::size_t>(j)] = sum;
     }
     const double slack = 4 * (n + 2) * unit_roundoff * size;
-    Isolation<Powers> isolation{roots, n};
+    if (most_changes<Room>(b, n, slack) == 0) return 0;
+    Isolation<Powers<Room>> isolation{roots, n};
     isolation.solve(p, b, slack, 0, 1, p.c[0], p.value(1), halvings);
     return isolation.count;
 }
@@ -237,26 +262,39 @@ int roots_in_unit(const Powers& p, double* roots) {
 // ---- the line, cut into pieces that are each like [0, 1]
 // ------------------------------------------------------------------------------------------------------------
 
-// p(2^k x) times a power of two that keeps it clear of overflow.
-Powers stretched(const Powers& p, int k) {
+// p(2^k x), times a power of two where overflow is near.
+template <int Room>
+Powers<Room> stretched(const Powers<Room>& p, int k) {
+    Powers<Room> q = p;
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (int i = 0; i <= p.degree; ++i)
+        if (const double c = std::abs(p.c[static_cast<std::size_t>(i)]); c != 0)
+            least = std::min(least, c), most = std::max(most, c);
+    if (least > 0x1p-300 && most < 0x1p300 && std::abs(k) * p.degree < 600) {
+        const double factor = std::ldexp(1.0, k);
+        double power = 1;
+        for (int i = 1; i <= p.degree; ++i) q.c[static_cast<std::size_t>(i)] *= power *= factor;
+        return q;
+    }
     int top = std::numeric_limits<int>::min();
     for (int i = 0; i <= p.degree; ++i)
         if (const double c = p.c[static_cast<std::size_t>(i)]; c != 0)
             top = std::max(top, std::ilogb(c) + i * k);
-    Powers q = p;
     for (int i = 0; i <= p.degree; ++i)
         q.c[static_cast<std::size_t>(i)] = std::ldexp(p.c[static_cast<std::size_t>(i)], i * k - top);
     return q;
 }
 
-Powers reversed(const Powers& p) {
-    Powers q = p;
+template <int Room>
+Powers<Room> reversed(const Powers<Room>& p) {
+    Powers<Room> q = p;
     std::reverse(q.c.begin(), q.c.begin() + p.degree + 1);
     return q;
 }
 
 // The exponent of a length that parts small roots from large ones: the mean of their sizes.
-int middle_exponent(const Powers& p) {
+template <int Room>
+int middle_exponent(const Powers<Room>& p) {
     int first = 0;
     while (first < p.degree && p.c[static_cast<std::size_t>(first)] == 0) ++first;
     if (first == p.degree) return 0;
@@ -266,17 +304,18 @@ int middle_exponent(const Powers& p) {
 }
 
 // Roots with 0 < x <= high, in increasing order.
-int positive_roots(const Powers& p, double high, double* roots) {
+template <int Room>
+int positive_roots(const Powers<Room>& p, double high, double* roots) {
     constexpr int far = 60; // a range so long that it is better cut in two
     const int middle = middle_exponent(p);
     const int end = std::isfinite(high) ? std::ilogb(high) + 1 : std::numeric_limits<int>::max();
     const bool cut = end > middle + far;
     const int k = cut ? middle : end;
-    int count = roots_in_unit(stretched(p, k), roots);
+    const Powers<Room> near = stretched(p, k);
+    int count = roots_in_unit(near, roots);
     for (int i = 0; i < count; ++i) roots[i] = std::ldexp(roots[i], k);
     if (cut) { // beyond: x = 2^k / u
-        std::array<double, room> inverse;
-        const Powers near = stretched(p, k);
+        Coefficients<Room> inverse{};
         const int more = roots_in_unit(reversed(near), inverse.data());
         for (int i = more - 1; i >= 0; --i) {
             const double x = 1 / inverse[static_cast<std::size_t>(i)],
@@ -289,34 +328,69 @@ int positive_roots(const Powers& p, double high, double* roots) {
     return count;
 }
 
-} // namespace
+// c[0] + c[1] t + c[2] t^2 with its discriminant right to a rounding [Kahan 2004]. False where that
+// overflows.
+bool quadratic_roots(std::span<const double> c, double low, double high, double* roots, int& count) {
+    const Pair square = two_product(c[1], c[1]), product = two_product(4 * c[2], c[0]);
+    const double discriminant = (square.value - product.value) + (square.rest - product.rest);
+    if (!(std::abs(discriminant) < 0x1p900) || !(square.value > 0x1p-900 || square.value == 0)) return false;
+    count = 0;
+    if (!(discriminant > 0)) return true;
+    const double q = -0.5 * (c[1] + std::copysign(std::sqrt(discriminant), c[1]));
+    double a = q / c[2], b = c[0] / q;
+    if (a > b) std::swap(a, b);
+    for (const double x : {a, b})
+        if (x >= low && x <= high) roots[count++] = x;
+    return true;
+}
 
-int real_roots(std::span<const double> c, double low, double high, double* roots) {
-    if (c.size() > room || !(low <= high)) return 0;
-    Powers p, mirrored;
-    p.c.fill(0);
-    for (std::size_t i = 0; i < c.size(); ++i) {
-        if (!std::isfinite(c[i])) return 0;
-        p.c[i] = c[i];
-        if (c[i] != 0) p.degree = static_cast<int>(i);
-    }
-    if (p.degree == 0) return 0;
+template <int Room>
+int real_roots_in(std::span<const double> c, double low, double high, double* roots) {
+    Powers<Room> p;
+    p.degree = static_cast<int>(c.size()) - 1;
+    std::copy(c.begin(), c.end(), p.c.begin());
     int count = 0;
+    Coefficients<Room> found{};
     if (low < 0) {
-        mirrored = p;
-        for (std::size_t i = 1; i < room; i += 2) mirrored.c[i] = -mirrored.c[i];
-        std::array<double, room> found;
+        Powers<Room> mirrored = p;
+        for (std::size_t i = 1; i < c.size(); i += 2) mirrored.c[i] = -mirrored.c[i];
         const int below = positive_roots(mirrored, -low, found.data());
         for (int i = below - 1; i >= 0; --i)
             if (const double x = -found[static_cast<std::size_t>(i)]; x <= high) roots[count++] = x;
     }
     if (high > 0) {
-        std::array<double, room> found;
         const int above = positive_roots(p, high, found.data());
         for (int i = 0; i < above; ++i)
             if (const double x = found[static_cast<std::size_t>(i)]; x >= low) roots[count++] = x;
     }
     return count;
+}
+
+template <int Room>
+int bernstein_roots_in(std::span<const double> b, double* roots) {
+    const int n = static_cast<int>(b.size()) - 1;
+    Bernstein<Room> f;
+    f.degree = n;
+    Coefficients<Room> plain{};
+    for (int i = 0; i <= n; ++i) {
+        plain[static_cast<std::size_t>(i)] = b[static_cast<std::size_t>(i)];
+        f.b[static_cast<std::size_t>(i)] = binomial(n, i) * b[static_cast<std::size_t>(i)];
+    }
+    Isolation<Bernstein<Room>> isolation{roots, n};
+    isolation.solve(f, plain, 0, 0, 1, b.front(), b.back(), halvings);
+    return isolation.count;
+}
+
+} // namespace
+
+int real_roots(std::span<const double> c, double low, double high, double* roots) {
+    if (c.size() > room || !(low <= high)) return 0;
+    while (!c.empty() && c.back() == 0) c = c.first(c.size() - 1);
+    if (c.size() < 2 || !std::all_of(c.begin(), c.end(), [](double x) { return std::isfinite(x); })) return 0;
+    int count = 0;
+    if (c.size() == 3 && quadratic_roots(c, low, high, roots, count)) return count;
+    return c.size() <= small_room ? real_roots_in<small_room>(c, low, high, roots)
+                                  : real_roots_in<room>(c, low, high, roots);
 }
 
 int bernstein_roots(std::span<const double> b, double* roots) {
@@ -325,16 +399,7 @@ int bernstein_roots(std::span<const double> b, double* roots) {
     const bool all_one_side = std::all_of(b.begin(), b.end(), [](double x) { return x > 0; }) ||
                               std::all_of(b.begin(), b.end(), [](double x) { return x < 0; });
     if (all_one_side) return 0;
-    Bernstein f;
-    f.degree = n;
-    Coefficients plain{};
-    for (int i = 0; i <= n; ++i) {
-        plain[static_cast<std::size_t>(i)] = b[static_cast<std::size_t>(i)];
-        f.b[static_cast<std::size_t>(i)] = binomial(n, i) * b[static_cast<std::size_t>(i)];
-    }
-    Isolation<Bernstein> isolation{roots, n};
-    isolation.solve(f, plain, 0, 0, 1, b.front(), b.back(), halvings);
-    return isolation.count;
+    return n < small_room ? bernstein_roots_in<small_room>(b, roots) : bernstein_roots_in<room>(b, roots);
 }
 
 double bernstein_value(std::span<const double> b, double s) {

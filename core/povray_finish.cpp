@@ -6,6 +6,7 @@
 #include "core/area_light.h"
 #include "core/noise.h"
 #include "core/probe.h"
+#include "core/texture_mix.h"
 
 #include <algorithm>
 #include <array>
@@ -49,6 +50,7 @@ struct Segment {
 
 // A hit with all that POV-Ray's formulas ask of it.
 struct Point {
+    const World& world;
     const Hit& hit;
     const Material& material;
     const Texture& texture; // of the side that the ray meets
@@ -60,8 +62,9 @@ struct Point {
 Point make_point(const World& world, const Hit& hit, Vec3 direction) {
     const Material& material = world.materials[static_cast<std::size_t>(world.surfaces[hit.surface].material)];
     const bool inside = glm::dot(hit.normal, direction) > 0;
-    return {hit,       material, side_texture(material, inside), -direction,
-            inside, facing_point(hit, direction)};
+    return {world,      hit,    material,
+            side_texture(material, inside), -direction, inside,
+            facing_point(hit, direction)};
 }
 
 Color trace(const Shading& shading, const Segment& segment, SampleState& state);
@@ -71,7 +74,7 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state);
 // What goes through all layers that a shadow ray meets at a point, with POV-Ray's faked caustics.
 Color passed_light(const Point& point) {
     Color sum(0);
-    for_each_texture(point.texture, point.at, [&](const Texture& plain, const SurfacePoint& at, double share) {
+    for_each_texture(point.world, point.hit, point.inside, point.at, [&](const Texture& plain, const SurfacePoint& at, double share) {
         std::optional<Vec3> normal;
         Color passed = for_each_layer(plain, at, [&](const LayerPoint& layer) {
             if (!normal) normal = layer.normal;
@@ -318,10 +321,10 @@ LightParts layered_light(const Shading& shading, const Segment& segment, const P
 }
 
 LightParts surface_light(const Shading& shading, const Segment& segment, const Point& point, SampleState& state) {
-    if (is_plain(point.texture))
+    if (is_single(point.hit, point.texture))
         return layered_light(shading, segment, point, point.texture, point.at, state);
     LightParts sum;
-    for_each_texture(point.texture, point.at, [&](const Texture& plain, const SurfacePoint& at, double share) {
+    for_each_texture(point.world, point.hit, point.inside, point.at, [&](const Texture& plain, const SurfacePoint& at, double share) {
         const auto weight = static_cast<float>(share);
         Segment part = segment;
         part.throughput *= weight;

@@ -2,6 +2,7 @@
 #include "core/probe.h"
 
 #include "core/geometry.h"
+#include "core/shape_hits.h"
 #include "core/world.h"
 
 #include <variant>
@@ -34,7 +35,11 @@ Bounds shape_box(const Object& object) {
     GeometryItem item;
     item.form = *object.shape;
     item.to_world = object.transform;
-    return inside_bounds(item);
+    // An endless inside is no extent, but for planes along an axis, where POV-Ray says how far the half space
+    // reaches.
+    return has_endless_inside(*object.shape) && !std::holds_alternative<Plane>(*object.shape)
+               ? item_bounds(item)
+               : inside_bounds(item);
 }
 
 } // namespace

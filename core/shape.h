@@ -80,6 +80,8 @@ struct BicubicPatch {
     std::array<Vec3, 16> points{};
     int u_steps = 4, v_steps = 4; // as POV-Ray: the patch is cut into 2^u_steps by 2^v_steps
     double flatness = 0;
+    // Texture coordinates of the corners points[0], [3], [15] and [12]; between them they are mixed.
+    std::array<Vec2, 4> corner_uv{Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
 };
 
 // Shapes that are given by fields (shape_field.h). What was said is shared by copies; what build_world makes of it, see
@@ -152,9 +154,9 @@ struct Text { // from z = 0 on
     std::shared_ptr<const TextData> data;
 };
 
-using Shape = std::variant<Sphere, Box, Plane, Cylinder, Cone, Torus, Disc, Mesh, BicubicPatch, Quadric, PolynomialSurface, Superellipsoid,
-                           Ovus, Lathe, Sor, Prism, SphereSweep, Polygon, Text, Isosurface, Blob, HeightField, JuliaFractal,
-                           Parametric>;
+using Shape = std::variant<Sphere, Box, Plane, Cylinder, Cone, Torus, Disc, Mesh, BicubicPatch, Isosurface, Blob,
+                           HeightField, JuliaFractal, Parametric, Quadric, PolynomialSurface, Superellipsoid, Ovus, Lathe,
+                           Sor, Prism, SphereSweep, Polygon, Text>;
 
 // In the shape's own space; infinite for unbounded shapes.
 Bounds shape_bounds(const Shape& shape);

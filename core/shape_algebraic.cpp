@@ -91,6 +91,16 @@ void intersect(const Quadric& s, const Ray& ray, HitList& hits) {
 
 bool is_inside(const Quadric& s, Vec3 p) { return form_of(s).value(p) < 0; }
 
+bool has_endless_inside(const Quadric& s) {
+    const Bounds box = bounds_of(s);
+    if (is_empty(box)) return is_inside(s, Vec3(0));
+    Vec3 beyond(0);
+    bool ends = false;
+    for (int k = 0; k < 3; ++k)
+        if (std::isfinite(box.low[k])) beyond[k] = box.low[k] - 1 - std::abs(box.low[k]), ends = true;
+    return ends && is_inside(s, beyond);
+}
+
 // ---- polynomials
 // ---------------------------------------------------------------------------------------------------
 

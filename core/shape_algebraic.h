@@ -34,6 +34,7 @@ void intersect(const PolynomialSurface& s, const Ray& ray, HitList& hits);
 void intersect(const Superellipsoid& s, const Ray& ray, HitList& hits);
 void intersect(const Ovus& s, const Ray& ray, HitList& hits);
 bool is_inside(const Quadric& s, Vec3 p);
+bool has_endless_inside(const Quadric& s); // the function is negative outside of the bounds
 bool is_inside(const PolynomialSurface& s, Vec3 p);
 bool is_inside(const Superellipsoid& s, Vec3 p);
 bool is_inside(const Ovus& s, Vec3 p);

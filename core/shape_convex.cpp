@@ -49,23 +49,34 @@ void meet_convex(const F& f, const Span& span, Add add) {
 struct Gauge {
     double a, b;
 
-    static double combine(double u, double v, double exponent) { // (u^exponent + v^exponent)^(1/exponent)
-        const double big = std::max(u, v), small = std::min(u, v);
-        if (!(big > 0)) return 0;
-        return big * std::pow(1 + std::pow(small / big, exponent), 1 / exponent);
+    // w = (u^e + v^e)^(1/e) and its slopes in u and v, which are (u / w)^(e - 1) and so on.
+    struct Combined {
+        double w, by_u, by_v;
+    };
+    static Combined combine(double u, double v, double e) {
+        const bool u_big = u >= v;
+        const double big = u_big ? u : v, small = u_big ? v : u;
+        if (!(big > 0)) return {0, 0, 0};
+        const double power = std::pow(small / big, e), sum = 1 + power, w = big * std::pow(sum, 1 / e);
+        const double by_big = w / (big * sum);
+        const double by_small = small > 0 ? std::min(power * w / (small * sum), 1e6)
+                                : e > 1   ? 0
+                                          : 1e6; // a cusp
+        return {w, u_big ? by_big : by_small, u_big ? by_small : by_big};
     }
-    double value(Vec3 p) const { return combine(combine(std::abs(p.x), std::abs(p.y), a), std::abs(p.z), b); }
-    // d combine / du = (u / combine)^(exponent - 1)
-    Vec3 gradient(Vec3 p) const {
-        const Vec3 q = glm::abs(p);
-        const double flat = combine(q.x, q.y, a), whole = combine(flat, q.z, b);
-        const auto share = [](double part, double all, double exponent) {
-            if (!(all > 0) || !(part > 0)) return exponent > 1 ? 0.0 : part < all ? 1e6 : 1.0;
-            return std::min(std::pow(part / all, exponent - 1), 1e6);
-        };
-        const double by_flat = share(flat, whole, b);
-        return {std::copysign(by_flat * share(q.x, flat, a), p.x),
-                std::copysign(by_flat * share(q.y, flat, a), p.y), std::copysign(share(q.z, whole, b), p.z)};
+    double value(Vec3 p) const {
+        return combine(combine(std::abs(p.x), std::abs(p.y), a).w, std::abs(p.z), b).w;
+    }
+    struct ValueAndGradient {
+        double value;
+        Vec3 gradient;
+    };
+    ValueAndGradient at(Vec3 p) const {
+        const Combined flat = combine(std::abs(p.x), std::abs(p.y), a),
+                       whole = combine(flat.w, std::abs(p.z), b);
+        return {whole.w,
+                {std::copysign(whole.by_u * flat.by_u, p.x), std::copysign(whole.by_u * flat.by_v, p.y),
+                 std::copysign(whole.by_v, p.z)}};
     }
 };
 
@@ -87,17 +98,24 @@ struct HollowSearch {
     void search(double t0, double t1, double f0, double f1, int depth, const Add& add) const {
         if (!may_be_zero(t0, t1)) return;
         if (depth == 0) {
-            if ((f0 < 0) != (f1 < 0)) add(close_in(t0, t1, f0));
+            if ((f0 < 0) != (f1 < 0)) add(close_in(t0, t1, f0, f1));
             return;
         }
         const double middle = 0.5 * (t0 + t1), f = value(middle);
         search(t0, middle, f0, f, depth - 1, add);
         search(middle, t1, f, f1, depth - 1, add);
     }
-    double close_in(double t0, double t1, double f0) const {
-        for (int step = 0; step < 60; ++step) {
-            const double middle = 0.5 * (t0 + t1);
-            ((value(middle) < 0) == (f0 < 0) ? t0 : t1) = middle;
+    double close_in(double t0, double t1, double f0,
+                    double f1) const { // false position, the kept end's value halved
+        for (int step = 0; step < 60 && t1 - t0 > 0x1p-50; ++step) {
+            double t = t0 + (t1 - t0) * (f0 / (f0 - f1));
+            if (!(t > t0 && t < t1) || step % 4 == 3) t = 0.5 * (t0 + t1);
+            const double f = value(t);
+            if (f == 0) return t;
+            if ((f < 0) == (f0 < 0))
+                t0 = t, f0 = f, f1 *= 0.5;
+            else
+                t1 = t, f1 = f, f0 *= 0.5;
         }
         return 0.5 * (t0 + t1);
     }
@@ -115,13 +133,13 @@ void intersect(const Superellipsoid& s, const Ray& ray, HitList& hits) {
     const Vec3 o = ray.origin + shift * ray.direction, d = ray.direction;
     const Gauge gauge = gauge_of(s);
     const auto add = [&](double t) {
-        add_hit(hits, ray, t + shift, gauge.gradient(o + t * d), Vec2(0), 1e-14);
+        add_hit(hits, ray, t + shift, gauge.at(o + t * d).gradient, Vec2(0), 1e-14);
     };
     const double length = span.leave - span.enter;
     if (s.east_west <= 2 && s.north_south <= 2) {
         const auto f = [&](double t) {
-            const Vec3 p = o + t * d;
-            return ValueAndSlope{gauge.value(p) - 1, glm::dot(gauge.gradient(p), d)};
+            const auto [value, gradient] = gauge.at(o + t * d);
+            return ValueAndSlope{value - 1, glm::dot(gradient, d)};
         };
         return meet_convex(f, {0, length}, add);
     }
@@ -132,7 +150,7 @@ void intersect(const Superellipsoid& s, const Ray& ray, HitList& hits) {
     const HollowSearch search{gauge, o, d};
     for (int i = 0; i < 4; ++i)
         if (ends[i] < ends[i + 1])
-            search.search(ends[i], ends[i + 1], search.value(ends[i]), search.value(ends[i + 1]), 9, add);
+            search.search(ends[i], ends[i + 1], search.value(ends[i]), search.value(ends[i + 1]), 6, add);
 }
 
 bool is_inside(const Superellipsoid& s, Vec3 p) { return gauge_of(s).value(p) <= 1; }
@@ -208,8 +226,11 @@ void intersect(const Ovus& s, const Ray& ray, HitList& hits) {
         const EggDistance at = egg_distance(egg, o + t * d);
         return ValueAndSlope{at.value, glm::dot(at.outwards, d)};
     };
+    const double middle = 0.5 * (box.low.y + box.high.y); // texture coordinates are angles as seen from there
     meet_convex(f, {0, span.leave - span.enter}, [&](double t) {
-        add_hit(hits, ray, t + shift, egg_distance(egg, o + t * d).outwards, Vec2(0), 1e-14 * size);
+        const Vec3 p = o + t * d;
+        const Vec2 uv(turn_about_y(p.x, p.z), 0.5 + std::atan2(p.y - middle, std::hypot(p.x, p.z)) / pi);
+        add_hit(hits, ray, t + shift, egg_distance(egg, p).outwards, uv, 1e-14 * size);
     });
 }
 

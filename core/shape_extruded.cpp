@@ -80,10 +80,10 @@ void cross_walls(std::span<const CurvePiece> pieces, Vec2 o, Vec2 d, Crossings& 
     sort_crossings(out);
 }
 
-// A wall's normal in the plane.
+// A wall's normal in the plane, to either side.
 Vec2 wall_normal(const Crossing& c) {
     const Vec2 tangent = piece_tangent(*c.piece, c.s);
-    return (c.piece->turned ? -1.0 : 1.0) * Vec2(tangent.y, -tangent.x);
+    return {tangent.y, -tangent.x};
 }
 
 // The lids of a straight or conic body, whose axis is number `axis`, at both ends of a stretch inside its
@@ -105,16 +105,20 @@ struct Lids {
 // Hits of the body that is inside between the 1st and 2nd crossing, the 3rd and 4th ... and in the slab.
 template <class Normal>
 void add_turns(const Crossings& crossings, const Lids& lids, double error, Normal normal_of, HitList& hits) {
-    const auto wall = [&](const Crossing& c) { add_hit(hits, lids.ray, c.t, normal_of(c), Vec2(0), error); };
+    const auto wall = [&](const Crossing& c, bool entering) {
+        const Vec3 n = normal_of(c);
+        const bool inwards = (glm::dot(n, lids.ray.direction) > 0) == entering;
+        add_hit(hits, lids.ray, c.t, inwards ? -n : n, Vec2(0), error);
+    };
     for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
         const Crossing &a = crossings[i], &b = crossings[i + 1];
         if (!(a.t <= lids.slab.leave) || !(b.t >= lids.slab.enter)) continue;
         if (a.t >= lids.slab.enter)
-            wall(a);
+            wall(a, true);
         else
             lids.add(hits, lids.slab.enter, true);
         if (b.t <= lids.slab.leave)
-            wall(b);
+            wall(b, false);
         else
             lids.add(hits, lids.slab.leave, false);
     }
@@ -182,7 +186,7 @@ void meet_conic_half(const PrismData& prism, double side, Lids lids, double erro
     }
     const auto normal = [&](const Crossing& c) {
         const Vec2 at = piece_point(*c.piece, c.s), n = wall_normal(c);
-        return side * Vec3(n.x, -(n.x * at.x + n.y * at.y), n.y);
+        return Vec3(n.x, -(n.x * at.x + n.y * at.y), n.y);
     };
     add_turns(crossings, lids, error, normal, hits);
 }
@@ -200,7 +204,6 @@ double size_of(const Bounds& b) { return glm::length(b.high - b.low) + glm::leng
 Shape make_prism(const PrismWords& words, std::span<const Vec2> points, bool& is_closed) {
     auto prism = std::make_shared<PrismData>();
     prism->pieces = closed_curves(words.spline, points, is_closed);
-    orient_pieces(prism->pieces);
     prism->low = std::min(words.from, words.to);
     prism->high = std::max(words.from, words.to);
     prism->conic = words.conic;

@@ -27,10 +27,16 @@ inline constexpr int all_hits = std::numeric_limits<int>::max();
 // `enough` hits it may leave out those behind them.
 int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits, int enough = all_hits);
 
+// Whether hits of the shape have coordinates of their own; other shapes have the first two of the place in the scene.
+bool has_uv(const Shape& shape);
+
 // Whether a point of the shape's own space is inside, as POV-Ray's CSG sees it: a plane's and a disc's inside
 // is the half space against the normal; cylinders and cones end at their lids even where these are open;
 // shapes without an inside (Mesh, BicubicPatch and Parametric here) have no such point. Points on the surface
 // may be either.
 bool inside_shape(const Shape& shape, Vec3 p);
+// Whether there are points inside that lie outside of the shape's bounds: behind a plane, around an ellipsoid that is said
+// the other way round.
+bool has_endless_inside(const Shape& shape);
 
 } // namespace pnr

@@ -135,12 +135,28 @@ End level_between(const OnRay& r, double sign, End a, End b) {
     return best;
 }
 
+// The same between two balls: h is quadratic and c linear, so that the level place is known.
+End least_of_cone(const OnRay& r, double sign, double low, double high) {
+    const End a = end_at(r, sign, low), b = end_at(r, sign, high);
+    End best = a.value < b.value ? a : b;
+    // h = h0 + h1 s + h2 s^2; where sign c' = h' / (2 sqrt(h)): 4 h (c'^2 - h2) = h1^2 - 4 h0 h2.
+    const double h0 = r.h[0], h1 = 2 * (r.h[1] - r.h[0]), h2 = r.h[2] - 2 * r.h[1] + r.h[0],
+                 c1 = sign * (r.c[1] - r.c[0]);
+    const double h = (h1 * h1 - 4 * h0 * h2) / (4 * (c1 * c1 - h2));
+    if (!(h >= 0)) return best;
+    const double s =
+        std::abs(h2) > 1e-9 * std::abs(h1) ? (2 * c1 * std::sqrt(h) - h1) / (2 * h2) : (h - h0) / h1;
+    if (!(s > low && s < high)) return best;
+    const End level = end_at(r, sign, s);
+    return level.value < best.value ? level : best;
+}
+
 // The least one on the stretch [low, high] of s, whose ends are roots of h or the piece's own. Samples are
 // close together at the ends, where the square root is steep.
 End least_end(const OnRay& r, double sign, double low, double high) {
-    constexpr int most = 12;
-    const int count = r.degree == 1 ? 3 : most;
-    End samples[most + 1];
+    constexpr int count = 12;
+    if (r.degree == 1) return least_of_cone(r, sign, low, high);
+    End samples[count + 1];
     for (int i = 0; i <= count; ++i) {
         const double share = 0.5 - 0.5 * std::cos(pi * i / count);
         samples[i] = end_at(r, sign, i == count ? high : low + (high - low) * share);

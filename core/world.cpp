@@ -33,6 +33,8 @@ template <class... F>
 struct Overload : F... {
     using F::operator()...;
 };
+template <class... F>
+Overload(F...) -> Overload<F...>; // clang 14 does not find it by itself
 
 bool is_finite(const Shape& shape) {
     return std::visit(
@@ -375,7 +377,9 @@ struct Builder {
         surface.global_lights = from.global_lights;
         surface.hollow = from.hollow;
         surface.closed = bounds_a_solid(*object.shape);
-        if (const PartTextures* textures = part_textures(item); textures && !from.unseen)
+        const Mesh* from_file = object.shape ? std::get_if<Mesh>(&*object.shape) : nullptr;
+        const bool overruled = from_file && !from_file->file.empty() && from.texture; // a file's own textures
+        if (const PartTextures* textures = part_textures(item); textures && !from.unseen && !overruled)
             item.first_part = add_parts(*textures, from, object.transform, surface);
         add_item(std::move(item), surface, from.cutaway && !from.texture);
         return static_cast<std::uint32_t>(items.size()) - 1;
@@ -401,7 +405,8 @@ struct Builder {
     }
 
     void append_parts() {
-        for (GeometryItem& item : items) item.first_part += static_cast<std::uint32_t>(items.size());
+        for (GeometryItem& item : items)
+            if (item.first_part != no_texture) item.first_part += static_cast<std::uint32_t>(items.size());
         world.surfaces.insert(world.surfaces.end(), parts.begin(), parts.end());
     }
 
@@ -552,7 +557,11 @@ World build_world(const Scene& scene, const Settings& settings) {
 // -----------------------------------------------------------------------------------------------------
 
 std::optional<Hit> closest_hit(const World& world, const Ray& ray, RayKind kind) {
-    return closest_hit(*world.geometry, ray, kind);
+    std::optional<Hit> hit = closest_hit(*world.geometry, ray, kind);
+    if (!hit) return hit;
+    const Shape* shape = std::get_if<Shape>(&geometry_items(*world.geometry)[hit->leaf].form);
+    if (!shape || !has_uv(*shape)) hit->uv = Vec2(hit->position + world.offset);
+    return hit;
 }
 
 bool is_occluded(const World& world, const Ray& ray, RayKind kind) {

@@ -30,8 +30,8 @@ void parse_default_block(Parser& p);
 std::optional<Object> parse_object(Parser& p);
 // One item that any object takes behind its own: texture, transforms, npr, flags. False if none stands here.
 bool parse_object_modifier(Parser& p, Object& object);
-// A shape's own items, up to the first modifier or `}`; parse_shapes.cpp, parse_mesh.cpp, parse_algebraic.cpp,
-// parse_swept.cpp and parse_field_shapes.cpp.
+// A shape's own items, up to the first modifier or `}`; parse_shapes.cpp, parse_mesh.cpp, parse_field_shapes.cpp,
+// parse_algebraic.cpp and parse_swept.cpp.
 Shape parse_sphere(Parser& p);
 Shape parse_box(Parser& p);
 Shape parse_plane(Parser& p);

@@ -52,128 +52,28 @@ VectorValue vector_argument(Parser& p) {
 
 namespace {
 
-using Unary = double (*)(double);
-
-double truncate(double x) { return std::trunc(x); }
-double to_radians(double x) { return x * pi / 180; }
-double to_degrees(double x) { return x * 180 / pi; }
-
-} // namespace
-
-double (*total_function(Keyword word))(double) {
-    switch (word) {
-    case "abs"_kw:
-        return std::fabs;
-    case "atan"_kw:
-        return std::atan;
-    case "asinh"_kw:
-        return std::asinh;
-    case "ceil"_kw:
-        return std::ceil;
-    case "floor"_kw:
-        return std::floor;
-    case "int"_kw:
-        return truncate;
-    case "sin"_kw:
-        return std::sin;
-    case "cos"_kw:
-        return std::cos;
-    case "tan"_kw:
-        return std::tan;
-    case "sinh"_kw:
-        return std::sinh;
-    case "cosh"_kw:
-        return std::cosh;
-    case "tanh"_kw:
-        return std::tanh;
-    case "exp"_kw:
-        return std::exp;
-    case "radians"_kw:
-        return to_radians;
-    case "degrees"_kw:
-        return to_degrees;
-    default:
-        return nullptr;
-    }
-}
-
-namespace {
-
 double checked(Parser& p, const Token& name, double argument, double result) {
     if (!std::isfinite(result))
         fail(p, name, fmt::format("{}({}) has no finite value", token_text(p, name, false), argument));
     return result;
 }
 
-// Functions of one number that have no value for some.
-double partial_function(Parser& p, const Token& name, double x) {
-    switch (static_cast<Keyword>(name.symbol)) {
-    case "acos"_kw:
-        return checked(p, name, x,
-                       std::acos(std::abs(x) > 1 && std::abs(x) < 1 + 1e-10 ? std::copysign(1, x) : x));
-    case "asin"_kw:
-        return checked(p, name, x,
-                       std::asin(std::abs(x) > 1 && std::abs(x) < 1 + 1e-10 ? std::copysign(1, x) : x));
-    case "acosh"_kw:
-        return checked(p, name, x, std::acosh(x));
-    case "atanh"_kw:
-        return checked(p, name, x, std::atanh(x));
-    case "sqrt"_kw:
-        return checked(p, name, x, std::sqrt(x));
-    case "ln"_kw:
-        return checked(p, name, x, std::log(x));
-    default:
-        return checked(p, name, x, std::log10(x));
-    }
-}
-
-bool is_partial_function(Keyword word) {
-    switch (word) {
-    case "acos"_kw:
-    case "asin"_kw:
-    case "acosh"_kw:
-    case "atanh"_kw:
-    case "sqrt"_kw:
-    case "ln"_kw:
-    case "log"_kw:
-        return true;
-    default:
-        return false;
-    }
-}
-
-bool is_binary_function(Keyword word) {
-    switch (word) {
-    case "atan2"_kw:
-    case "mod"_kw:
-    case "div"_kw:
-    case "pow"_kw:
-        return true;
-    default:
-        return false;
-    }
-}
-
-double binary_function(Parser& p, const Token& name, double a, double b) {
+double checked_binary(Parser& p, const Token& name, double a, double b) {
     const auto word = static_cast<Keyword>(name.symbol);
-    if (word == "atan2"_kw) return a == 0 && b == 0 ? 0 : std::atan2(a, b);
-    if (word == "mod"_kw || word == "div"_kw) {
-        if (b == 0) fail(p, name, fmt::format("{}({}, 0): division by zero", token_text(p, name, false), a));
-        return word == "mod"_kw ? std::fmod(a, b) : std::trunc(a / b);
-    }
-    const double result = std::pow(a, b);
-    if (!std::isfinite(result)) fail(p, name, fmt::format("pow({}, {}) has no finite value", a, b));
+    if (b == 0 && (word == "mod"_kw || word == "div"_kw))
+        fail(p, name, fmt::format("{}({}, 0): division by zero", token_text(p, name, false), a));
+    const double result = function_of_two(word)(a, b);
+    if (!std::isfinite(result))
+        fail(p, name, fmt::format("{}({}, {}) has no finite value", token_text(p, name, false), a, b));
     return result;
 }
 
-// POV-Ray's generator: a linear congruence of 32 bits; `seed` starts a stream, `rand` steps it.
-double next_random(Parser& p, const Token& name, double stream) {
+// `seed` starts a stream of random numbers, `rand` steps it.
+double random_of(Parser& p, const Token& name, double stream) {
     const auto count = static_cast<double>(p.in.random_streams.size());
     if (!(stream >= 0) || stream >= count)
         fail(p, name, fmt::format("{} is no stream of random numbers", stream), "seed(number) makes one");
-    std::uint32_t& state = p.in.random_streams[static_cast<std::size_t>(stream)];
-    state = state * 1812433253u + 12345u;
-    return static_cast<double>(state) / 4294967295.0;
+    return next_random(p.in.random_streams[static_cast<std::size_t>(stream)]);
 }
 
 double new_stream(Parser& p, const Token& name, double seed) {
@@ -274,7 +174,7 @@ double sum_or_product(Parser& p, const Token& name) {
     double result = is_sum ? 0 : 1;
     for (double i = first; i <= last + 1e-9; i += 1) {
         if (++p.in.used.loop_turns > p.in.options.budgets.loop_turns)
-            stop(p, name,
+            stop_at_limit(p, name, &Budgets::loop_turns,
                  fmt::format("the scene's loops turn more than {} times", p.in.options.budgets.loop_turns));
         if (p.in.frames.size() != frames || p.in.frames.back().scope != scope)
             fail(p, name, "the last argument must stand in one macro or file");
@@ -339,32 +239,6 @@ bool is_constant(Keyword word) {
     }
 }
 
-// x, y, z are vectors of three, u and v of two, t of four.
-bool unit_vector(Keyword word, VectorValue& value) {
-    switch (word) {
-    case "x"_kw:
-        value = {{1, 0, 0, 0, 0}, 3, false};
-        return true;
-    case "y"_kw:
-        value = {{0, 1, 0, 0, 0}, 3, false};
-        return true;
-    case "z"_kw:
-        value = {{0, 0, 1, 0, 0}, 3, false};
-        return true;
-    case "t"_kw:
-        value = {{0, 0, 0, 1, 0}, 4, false};
-        return true;
-    case "u"_kw:
-        value = {{1, 0, 0, 0, 0}, 2, false};
-        return true;
-    case "v"_kw:
-        value = {{0, 1, 0, 0, 0}, 2, false};
-        return true;
-    default:
-        return false;
-    }
-}
-
 bool is_vector_function(Keyword word) {
     switch (word) {
     case "vlength"_kw:
@@ -380,9 +254,6 @@ bool is_vector_function(Keyword word) {
     }
 }
 
-Vec3 vec3(const VectorValue& value) { return {value.v[0], value.v[1], value.v[2]}; }
-VectorValue vector(Vec3 v) { return {{v.x, v.y, v.z, 0, 0}, 3, false}; }
-
 // vturbulence(lambda, omega, octaves, point)
 VectorValue turbulence_function(Parser& p, const Token& name) {
     Turbulence words;
@@ -392,32 +263,27 @@ VectorValue turbulence_function(Parser& p, const Token& name) {
     comma_argument(p, name);
     words.octaves = static_cast<int>(std::clamp(number_argument(p), 1.0, 10.0));
     comma_argument(p, name);
-    return vector(turbulence_vector(vec3(vector_argument(p)), words));
+    const VectorValue at = vector_argument(p);
+    const Vec3 moved = turbulence_vector(Vec3(at.v[0], at.v[1], at.v[2]), words);
+    return {{moved.x, moved.y, moved.z, 0, 0}, 3, false};
 }
 
-VectorValue vector_function(Parser& p, const Token& name) {
+VectorValue call_vector_function(Parser& p, const Token& name) {
     if (is(name, "vturbulence"_kw)) return turbulence_function(p, name);
     const VectorValue a = vector_argument(p);
     const auto word = static_cast<Keyword>(name.symbol);
-    double length = 0;
-    for (int i = 0; i < a.size; ++i) length += a.v[i] * a.v[i];
-    length = std::sqrt(length);
-    if (word == "vlength"_kw) return scalar(length);
-    if (word == "vnormalize"_kw) {
-        VectorValue unit = a;
-        if (length == 0) return unit; // POV-Ray's answer for the zero vector
-        for (int i = 0; i < a.size; ++i) unit.v[i] /= length;
-        return unit;
+    VectorValue b, result;
+    if (word != "vlength"_kw && word != "vnormalize"_kw) {
+        comma_argument(p, name);
+        b = vector_argument(p);
     }
-    comma_argument(p, name);
-    const VectorValue b = vector_argument(p);
-    if (word == "vcross"_kw) return vector(glm::cross(vec3(a), vec3(b)));
-    if (word == "vdot"_kw) return scalar(glm::dot(vec3(a), vec3(b)));
-    if (word == "vrotate"_kw) return vector(transform_vector(rotation(vec3(b)).matrix, vec3(a)));
-    comma_argument(p, name);
+    if (vector_function(word, a, b, result)) return result;
+    comma_argument(p, name); // vaxis_rotate
     const double angle = number_argument(p);
-    if (glm::length(vec3(b)) == 0) fail(p, name, "vaxis_rotate() about an axis of length 0");
-    return vector(transform_vector(axis_rotation(vec3(b), angle).matrix, vec3(a)));
+    const Vec3 axis(b.v[0], b.v[1], b.v[2]);
+    if (glm::length(axis) == 0) fail(p, name, "vaxis_rotate() about an axis of length 0");
+    const Vec3 turned = transform_vector(axis_rotation(axis, angle).matrix, Vec3(a.v[0], a.v[1], a.v[2]));
+    return {{turned.x, turned.y, turned.z, 0, 0}, 3, false};
 }
 
 bool is_other_function(Keyword word) {
@@ -453,7 +319,7 @@ double other_function(Parser& p, const Token& name) {
     case "max"_kw:
         return min_or_max(p, true);
     case "rand"_kw:
-        return next_random(p, name, number_argument(p));
+        return random_of(p, name, number_argument(p));
     case "seed"_kw:
         return new_stream(p, name, number_argument(p));
     case "dimensions"_kw:
@@ -480,7 +346,7 @@ double other_function(Parser& p, const Token& name) {
 
 bool is_number_builtin(Keyword word) {
     VectorValue ignored;
-    return total_function(word) || is_partial_function(word) || is_binary_function(word) ||
+    return total_function(word) || partial_function(word) || function_of_two(word) ||
            is_constant(word) || is_vector_function(word) || is_other_function(word) || is_object_function(word) ||
            unit_vector(word, ignored);
 }
@@ -494,14 +360,15 @@ VectorValue call_number_builtin(Parser& p, const Token& name) {
     if (const Unary function = total_function(word)) {
         const double argument = number_argument(p);
         value = scalar(checked(p, name, argument, function(argument)));
-    } else if (is_partial_function(word)) {
-        value = scalar(partial_function(p, name, number_argument(p)));
-    } else if (is_binary_function(word)) {
+    } else if (const Unary partial = partial_function(word)) {
+        const double argument = number_argument(p);
+        value = scalar(checked(p, name, argument, partial(argument)));
+    } else if (function_of_two(word)) {
         const double a = number_argument(p);
         comma_argument(p, name);
-        value = scalar(binary_function(p, name, a, number_argument(p)));
+        value = scalar(checked_binary(p, name, a, number_argument(p)));
     } else if (is_vector_function(word)) {
-        value = vector_function(p, name);
+        value = call_vector_function(p, name);
     } else if (is_object_function(word)) {
         value = object_function(p, name);
     } else if (word == "select"_kw) {

@@ -10,8 +10,6 @@ void open_arguments(Parser& p, const Token& name);
 void close_arguments(Parser& p, const Token& name);
 void comma_argument(Parser& p, const Token& name);
 double number_argument(Parser& p);
-// Functions of one number that are defined everywhere; null: none of that name.
-double (*total_function(Keyword word))(double);
 VectorValue vector_argument(Parser& p); // at least 3 components
 
 double number_of_strings(Parser& p, const Token& name); // strlen strcmp asc val, behind the `(`

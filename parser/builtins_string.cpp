@@ -14,7 +14,7 @@ namespace {
 
 void check_length(Parser& p, const Token& name, std::size_t length) {
     if (static_cast<std::int64_t>(length) > p.in.options.budgets.string_length)
-        stop(p, name,
+        stop_at_limit(p, name, &Budgets::string_length,
              fmt::format("the string is longer than {} characters", p.in.options.budgets.string_length));
     charge_work(p, name, letters_work(length));
 }

@@ -39,10 +39,12 @@ namespace {
 // Values closer than this are equal, as for POV-Ray's `=`.
 constexpr double equal_within = 1e-10;
 
+// `index`: a directive's value, of the frame's tokens.
 void jump(Parser& p, double index) { p.in.frames.back().position = static_cast<std::uint32_t>(index); }
 
-const Token& token_at(Parser& p, double index) {
-    return p.in.frames.back().tokens[static_cast<std::size_t>(index)];
+Token token_at(Parser& p, double index) {
+    const TokenFrame& frame = p.in.frames.back();
+    return unpack(frame.tokens[static_cast<std::size_t>(index)], frame.source, frame.chain);
 }
 
 // `(expression)`.
@@ -60,28 +62,26 @@ bool condition(Parser& p, const Token& directive) {
     return is_true(condition_value(p, directive));
 }
 
-// The #end of the construct that `branch` belongs to.
-const Token& end_of(Parser& p, const Token& branch) {
-    const Token* token = &branch;
-    while (static_cast<Keyword>(token->symbol) != "end"_kw) {
-        if (token->value == no_jump) fail(p, branch, "there is no `#if` or `#switch` that this belongs to");
-        token = &token_at(p, token->value);
+// The index of the #end of the construct that `branch` belongs to.
+double end_of(Parser& p, const Token& branch) {
+    double index = branch.value;
+    for (;;) {
+        if (index == no_jump) fail(p, branch, "there is no `#if` or `#switch` that this belongs to");
+        const Token token = token_at(p, index);
+        if (static_cast<Keyword>(token.symbol) == "end"_kw) return index;
+        index = token.value;
     }
-    return *token;
 }
 
-void jump_behind_end(Parser& p, const Token& branch) {
-    const Token* token = &end_of(p, branch);
-    p.in.frames.back().position = static_cast<std::uint32_t>(token - p.in.frames.back().tokens) + 1;
-}
+void jump_behind_end(Parser& p, const Token& branch) { jump(p, end_of(p, branch) + 1); }
 
 void if_directive(Parser& p, const Token& opener) {
-    const Token* branch = &opener;
-    while (!condition(p, *branch)) {
-        const double index = branch->value;
-        branch = &token_at(p, index);
+    Token branch = opener;
+    while (!condition(p, branch)) {
+        const double index = branch.value;
+        branch = token_at(p, index);
         jump(p, index + 1);
-        if (static_cast<Keyword>(branch->symbol) != "elseif"_kw) return; // #else: its body; #end: behind it
+        if (static_cast<Keyword>(branch.symbol) != "elseif"_kw) return; // #else: its body; #end: behind it
     }
 }
 
@@ -89,7 +89,7 @@ void switch_directive(Parser& p, const Token& opener) {
     const double value = condition_value(p, opener);
     double index = opener.value;
     for (;;) {
-        const Token& branch = token_at(p, index);
+        const Token branch = token_at(p, index);
         jump(p, index + 1);
         const auto name = static_cast<Keyword>(branch.symbol);
         if (name == "case"_kw) {
@@ -120,14 +120,14 @@ void fall_through(Parser& p, const Token& branch) {
 // An #else reached from above: behind an #if it is passed over; in a #switch it is one more case to fall
 // into.
 void else_directive(Parser& p, const Token& branch) {
-    const Token& opener = token_at(p, end_of(p, branch).value);
+    const Token opener = token_at(p, token_at(p, end_of(p, branch)).value);
     if (static_cast<Keyword>(opener.symbol) != "switch"_kw) jump_behind_end(p, branch);
 }
 
 void count_turn(Parser& p, const Token& opener) {
-    p.in.last_loop = &opener;
+    p.in.last_loop = opener;
     if (++p.in.used.loop_turns > p.in.options.budgets.loop_turns)
-        stop(p, opener,
+        stop_at_limit(p, opener, &Budgets::loop_turns,
              fmt::format("the scene's loops turn more than {} times", p.in.options.budgets.loop_turns),
              "does this loop's condition ever become false?");
 }
@@ -187,7 +187,7 @@ void next_for_turn(Parser& p, const Token& opener) {
 void end_directive(Parser& p, const Token& end) {
     if (end.value == no_jump)
         fail(p, end, "`#end` without an `#if`, `#while`, `#for`, `#switch` or `#macro`");
-    const Token& opener = token_at(p, end.value);
+    const Token opener = token_at(p, end.value);
     const auto name = static_cast<Keyword>(opener.symbol);
     if (name == "while"_kw) {
         jump(p, end.value + 1);
@@ -199,7 +199,7 @@ void end_directive(Parser& p, const Token& end) {
 
 void break_directive(Parser& p, const Token& directive) {
     if (directive.value == no_jump) fail(p, directive, "`#break` outside of a loop or `#switch`");
-    const Token& end = token_at(p, directive.value);
+    const Token end = token_at(p, directive.value);
     if (static_cast<Keyword>(token_at(p, end.value).symbol) == "for"_kw) p.in.loops.pop_back();
     jump(p, directive.value + 1);
 }
@@ -246,7 +246,7 @@ void default_directive(Parser& p) {
 
 void debug_directive(Parser& p) {
     const std::string text = message_text(p);
-    const std::size_t most = p.in.options.budgets.debug_output;
+    const auto most = static_cast<std::size_t>(p.in.options.budgets.debug_output);
     if (p.in.debug_output.size() < most) p.in.debug_output += text.substr(0, most - p.in.debug_output.size());
 }
 
@@ -349,8 +349,8 @@ void recover_directive(Parser& p, const Token& directive, std::size_t frames, st
     // The failing token may have been passed: a directive or brace just behind us is ours to look at again.
     int depth = 0;
     while (frame.position < frame.end) {
-        const Token& token = frame.tokens[frame.position];
-        if (token.kind == TokenKind::directive && depth == 0) return;
+        const StoredToken& token = frame.tokens[frame.position];
+        if (kind_of(token) == TokenKind::directive && depth == 0) return;
         if (is(token, '}') && depth-- == 0) return;
         ++frame.position;
         if (is(token, '{')) ++depth;
@@ -362,13 +362,12 @@ void recover_directive(Parser& p, const Token& directive, std::size_t frames, st
 
 void run_directive(Parser& p, const Token& token) {
     Expander& in = p.in;
-    const Token* at = &token; // its index matters, so it goes on by reference; its chain is the frame's
     const std::size_t frames = in.frames.size(), blocks = in.blocks.size();
     const std::int64_t brace_depth = in.brace_depth;
     const Hold hold = in.hold;
     const Nesting nesting(p, token);
     try {
-        dispatch(p, *at);
+        dispatch(p, token);
     } catch (const ParseFailure&) {
         in.hold = hold;
         recover_directive(p, token, frames, blocks, brace_depth);

@@ -174,7 +174,7 @@ std::uint32_t behind_subscripts(const TokenFrame& frame, std::uint32_t i) {
     ++i;
     int depth = 0;
     while (i < frame.end) {
-        const Token& token = frame.tokens[i];
+        const StoredToken& token = frame.tokens[i];
         if (is(token, '['))
             ++depth;
         else if (depth == 0)
@@ -191,9 +191,9 @@ bool by_reference(Parser& p) {
     if (p.in.buffered) return false;
     const TokenFrame& frame = p.in.frames.back();
     if (frame.position >= frame.end) return false;
-    const Token& token = frame.tokens[frame.position];
-    if (token.kind != TokenKind::word || is_reserved(token.symbol)) return false;
-    const Value* value = lookup(p.in, token.symbol);
+    const StoredToken& token = frame.tokens[frame.position];
+    if (kind_of(token) != TokenKind::word || is_reserved(token.name.symbol)) return false;
+    const Value* value = lookup(p.in, token.name.symbol);
     if (value && std::holds_alternative<std::shared_ptr<const Macro>>(value->data)) return false;
     const std::uint32_t behind = behind_subscripts(frame, frame.position);
     return behind < frame.end && (is(frame.tokens[behind], ',') || is(frame.tokens[behind], ')'));

@@ -44,17 +44,18 @@ std::string written(Parser& p) {
 
 // One value of a text file: a string, a number, or a vector; false at its end.
 bool read_value(Parser& p, const Token& at, OpenFile& file, Value& value) {
-    const std::vector<Token>& tokens = tokens_of(p.in, file.source);
+    const std::vector<StoredToken>& tokens = tokens_of(p, file.source);
     const auto number = [&](double& result) {
         const bool negative = is(tokens[file.position], '-');
         if (negative || is(tokens[file.position], '+')) ++file.position;
-        if (tokens[file.position].kind != TokenKind::number) fail(p, at, "this file holds no number here");
-        result = tokens[file.position++].value * (negative ? -1 : 1);
+        if (kind_of(tokens[file.position]) != TokenKind::number)
+            fail(p, at, "this file holds no number here");
+        result = tokens[file.position++].number * (negative ? -1 : 1);
     };
-    const Token& token = tokens[file.position];
-    if (token.kind == TokenKind::end) return false;
-    if (token.kind == TokenKind::string) {
-        value.data = p.in.strings[token.symbol];
+    const StoredToken& token = tokens[file.position];
+    if (kind_of(token) == TokenKind::end) return false;
+    if (kind_of(token) == TokenKind::string) {
+        value.data = p.in.strings[token.name.symbol];
         ++file.position;
     } else if (is(token, '<')) {
         VectorValue vector;
@@ -76,6 +77,15 @@ bool read_value(Parser& p, const Token& at, OpenFile& file, Value& value) {
     return true;
 }
 
+// What a file on disk holds stays in front of what is appended.
+void start_appending(Parser& p, const Token& at, const std::string& name) {
+    if (p.in.written.contains(name)) return;
+    std::string& text = p.in.written[name];
+    const auto before = read_text(writable_path(p.in, name).string(),
+                                  static_cast<std::size_t>(p.in.options.budgets.file_bytes));
+    if (before) append(p, at, text, *before);
+}
+
 } // namespace
 
 void fopen_directive(Parser& p, const Token& directive) {
@@ -90,6 +100,10 @@ void fopen_directive(Parser& p, const Token& directive) {
         if (!file->writing && !is(mode, "read"_kw))
             fail(p, mode, fmt::format("expected `read`, `write` or `append`, found {}", token_text(p, mode)));
         if (is(mode, "write"_kw)) p.in.written[file->name].clear();
+        if (is(mode, "append"_kw)) start_appending(p, at, file->name);
+        if (file->writing && !p.in.options.allow_write.empty() && writable_path(p.in, file->name).empty())
+            warn(p, at, fmt::format("\"{}\" lies outside of the folder that may be written: it stays in memory",
+                                    file->name));
     }
     if (!file->writing) file->source = open_include(p, at, file->name);
     assign(p, name.symbol, Value{std::move(file)}, false);
@@ -134,7 +148,8 @@ void read_directive(Parser& p, const Token& directive) {
     }
     expect_raw(p, ')', directive);
     // At its end the name is undefined: `#while (defined(File))` is how POV-Ray's scenes go through a file.
-    if (tokens_of(p.in, file->source)[file->position].kind == TokenKind::end) undefine(p.in, name.symbol);
+    if (tokens_of(p, file->source)[file->position].kind ==
+        static_cast<std::uint32_t>(TokenKind::end)) undefine(p.in, name.symbol);
 }
 
 } // namespace pnr

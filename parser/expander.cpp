@@ -35,19 +35,19 @@ bool ends_expression(Keyword name) {
 }
 
 // Does this directive continue or close a construct that was opened before the token `start`?
-bool closes_before(const TokenFrame& frame, const Token& directive, std::uint32_t start) {
-    const Token* token = &directive;
-    if (is_opener(static_cast<Keyword>(token->symbol))) return false;
-    while (token->value != no_jump && static_cast<Keyword>(token->symbol) != "end"_kw)
-        token = &frame.tokens[static_cast<std::size_t>(token->value)];
-    if (static_cast<Keyword>(token->symbol) != "end"_kw) return false;
-    return token->value == no_jump || token->value < start;
+bool closes_before(const TokenFrame& frame, const StoredToken& directive, std::uint32_t start) {
+    StoredToken::Name name = directive.name;
+    if (is_opener(static_cast<Keyword>(name.symbol))) return false;
+    while (name.jump != no_jump && static_cast<Keyword>(name.symbol) != "end"_kw)
+        name = frame.tokens[name.jump].name;
+    if (static_cast<Keyword>(name.symbol) != "end"_kw) return false;
+    return name.jump == no_jump || name.jump < start;
 }
 
 Token end_token(const TokenFrame& frame) {
-    Token token = frame.tokens[frame.position < frame.end ? frame.position : frame.end];
+    Token token = unpack(frame.tokens[frame.position < frame.end ? frame.position : frame.end], frame.source,
+                         frame.chain);
     token.kind = TokenKind::end;
-    token.chain = frame.chain;
     return token;
 }
 
@@ -59,31 +59,57 @@ const std::shared_ptr<const Macro>* macro_of(const Expander& in, Symbol symbol) 
 }
 
 // True when the stream ends here for the directive whose expression is being read.
-bool held(const Expander& in, const TokenFrame& frame, bool behind_operand) {
+bool held(const Expander& in, const TokenFrame& frame, std::uint32_t index, bool behind_operand) {
     if (in.hold.frame != in.frames.size()) return false;
-    if (frame.position == frame.end) return true;
-    const Token& token = frame.tokens[frame.position];
-    if (token.kind != TokenKind::directive) return false;
-    if (behind_operand && ends_expression(static_cast<Keyword>(token.symbol))) return true;
+    if (index == frame.end) return true;
+    const StoredToken& token = frame.tokens[index];
+    if (kind_of(token) != TokenKind::directive) return false;
+    if (behind_operand && ends_expression(static_cast<Keyword>(token.name.symbol))) return true;
     return closes_before(frame, token, in.hold.start);
 }
 
 [[noreturn]] void stop_at_tokens(Parser& p, const Token& at) {
     const std::int64_t most = p.in.options.budgets.tokens;
     constexpr std::int64_t suspicious = 100'000; // turns
-    if (p.in.last_loop && p.in.used.loop_turns > suspicious)
-        stop(p, *p.in.last_loop,
+    if (p.in.used.loop_turns > suspicious)
+        stop_at_limit(p, p.in.last_loop, &Budgets::tokens,
              fmt::format("the scene has more than {} tokens after expansion; its loops have turned {} times",
                          most, p.in.used.loop_turns),
              "does this loop's condition ever become false?");
-    stop(p, at, fmt::format("the scene has more than {} tokens after expansion", most));
+    stop_at_limit(p, at, &Budgets::tokens,
+                  fmt::format("the scene has more than {} tokens after expansion", most));
+}
+
+// How many tokens the memory that is left can hold.
+std::int64_t tokens_allowed(const Expander& in) {
+    const std::int64_t left = in.options.budgets.bytes - *in.bytes;
+    return std::max<std::int64_t>(left / static_cast<std::int64_t>(sizeof(StoredToken)), 1);
+}
+
+// A frame over the tokens of a `numbers` token, which are made now.
+void push_part(Parser& p, const Span& span) {
+    Expander& in = p.in;
+    auto& tokens = in.parts[static_cast<std::uint64_t>(span.source) << 32 | span.begin];
+    if (tokens.empty()) {
+        tokens = lex(in.sources.files[span.source], in.words, in.strings,
+                     {span.begin, span.end, false, tokens_allowed(in)});
+        *in.bytes += static_cast<std::int64_t>(tokens.size() * sizeof(StoredToken));
+    }
+    TokenFrame frame = in.frames.back();
+    frame.tokens = tokens.data();
+    frame.position = 0;
+    frame.end = static_cast<std::uint32_t>(tokens.size() - 1);
+    frame.first_local = in.locals.size();
+    frame.first_loop = in.loops.size();
+    frame.part = true;
+    in.frames.push_back(std::move(frame));
 }
 
 void fill(Parser& p, bool behind_operand) {
     Expander& in = p.in;
     for (;;) {
         TokenFrame& frame = in.frames.back();
-        if (in.hold.frame != 0 && held(in, frame, behind_operand)) {
+        if (in.hold.frame != 0 && held(in, frame, frame.position, behind_operand)) {
             in.buffer = end_token(frame);
             return; // not buffered: the next look finds it again
         }
@@ -95,24 +121,29 @@ void fill(Parser& p, bool behind_operand) {
             pop_frame(p);
             continue;
         }
-        const Token& token = frame.tokens[frame.position++];
+        const StoredToken& stored = frame.tokens[frame.position++];
+        const Token token = unpack(stored, frame.source, frame.chain);
         if (++in.used.tokens > in.options.budgets.tokens) stop_at_tokens(p, token);
-        if (token.kind == TokenKind::directive) {
+        switch (kind_of(stored)) {
+        case TokenKind::directive:
             run_directive(p, token);
             if (in.buffered) return;
             continue;
-        }
-        if (token.kind == TokenKind::word) {
+        case TokenKind::word:
             if (const auto* macro = macro_of(in, token.symbol)) {
-                Token name = token;
-                name.chain = frame.chain;
-                call_macro(p, std::shared_ptr<const Macro>(*macro), name);
+                call_macro(p, std::shared_ptr<const Macro>(*macro), token);
                 continue;
             }
+            break;
+        case TokenKind::numbers:
+            push_part(p, token.span);
+            continue;
+        case TokenKind::invalid:
+            fail(p, token, in.strings[token.symbol]);
+        default:
+            break;
         }
         in.buffer = token;
-        in.buffer.chain = frame.chain;
-        if (token.kind == TokenKind::invalid) fail(p, in.buffer, in.strings[token.symbol]);
         in.buffered = true;
         return;
     }
@@ -135,6 +166,22 @@ std::uint32_t call_number(Expander& in, std::uint32_t parent, const Token& at, S
 
 void fill_buffer(Parser& p) { fill(p, false); }
 
+bool ends_here(const Expander& in, const TokenFrame& frame, std::uint32_t index) {
+    if (index == frame.end) return in.frames.size() == 1 || held(in, frame, index, true);
+    const StoredToken& token = frame.tokens[index];
+    switch (kind_of(token)) {
+    case TokenKind::directive:
+        return held(in, frame, index, true);
+    case TokenKind::word:
+        return macro_of(in, token.name.symbol) == nullptr;
+    case TokenKind::invalid:
+    case TokenKind::numbers:
+        return false;
+    default:
+        return true;
+    }
+}
+
 const Token& peek_operator(Parser& p) {
     if (!p.in.buffered) fill(p, true);
     return p.in.buffer;
@@ -142,15 +189,16 @@ const Token& peek_operator(Parser& p) {
 
 const Token& peek_raw(Parser& p) {
     TokenFrame& frame = p.in.frames.back();
-    p.in.buffer = frame.position < frame.end ? frame.tokens[frame.position] : end_token(frame);
-    p.in.buffer.chain = frame.chain;
+    p.in.buffer = frame.position < frame.end
+                      ? unpack(frame.tokens[frame.position], frame.source, frame.chain)
+                      : end_token(frame);
     return p.in.buffer;
 }
 
 Token next_raw(Parser& p) {
-    const Token token = peek_raw(p);
-    if (token.kind != TokenKind::end) ++p.in.frames.back().position;
-    return token;
+    TokenFrame& frame = p.in.frames.back();
+    if (frame.position == frame.end) return end_token(frame);
+    return unpack(frame.tokens[frame.position++], frame.source, frame.chain);
 }
 
 // ---- frames
@@ -158,10 +206,10 @@ Token next_raw(Parser& p) {
 
 void push_text(Parser& p, std::uint32_t source, const Token& at) {
     Expander& in = p.in;
-    const std::vector<Token>& tokens = tokens_of(in, source);
+    const std::vector<StoredToken>& tokens = tokens_of(p, source);
     const std::uint32_t parent = in.frames.empty() ? 0 : in.frames.back().chain;
     if (!in.frames.empty() && ++in.used.include_depth > in.options.budgets.include_depth)
-        stop(p, at, fmt::format("#include goes deeper than {} files", in.options.budgets.include_depth),
+        stop_at_limit(p, at, &Budgets::include_depth, fmt::format("#include goes deeper than {} files", in.options.budgets.include_depth),
              "does a file include itself? Guard it with #ifndef");
     TokenFrame frame;
     frame.tokens = tokens.data();
@@ -178,9 +226,9 @@ void push_macro(Parser& p, const std::shared_ptr<const Macro>& macro, const Toke
     Expander& in = p.in;
     const Budgets& budgets = in.options.budgets;
     if (++in.used.macro_calls > budgets.macro_calls)
-        stop(p, at, fmt::format("macros are called more than {} times", budgets.macro_calls));
+        stop_at_limit(p, at, &Budgets::macro_calls, fmt::format("macros are called more than {} times", budgets.macro_calls));
     if (++in.used.macro_depth > budgets.macro_depth)
-        stop(p, at,
+        stop_at_limit(p, at, &Budgets::macro_depth,
              fmt::format("macro `{}` is called inside itself or others more than {} deep",
                          in.words.text(macro->name), budgets.macro_depth),
              "does the recursion end? It needs an #if that stops it");
@@ -200,23 +248,28 @@ void push_macro(Parser& p, const std::shared_ptr<const Macro>& macro, const Toke
 void pop_frame(Parser& p) {
     Expander& in = p.in;
     TokenFrame& frame = in.frames.back();
-    while (in.locals.size() > frame.first_local) {
+    while (!frame.part && in.locals.size() > frame.first_local) {
         auto& bindings = in.symbols[in.locals.back()].bindings;
         if (!bindings.empty() && bindings.back().scope == frame.scope) bindings.pop_back();
         in.locals.pop_back();
     }
     in.loops.resize(frame.first_loop);
-    --(frame.macro ? in.used.macro_depth : in.used.include_depth);
+    if (!frame.part) --(frame.macro ? in.used.macro_depth : in.used.include_depth);
     in.frames.pop_back();
 }
 
-const std::vector<Token>& tokens_of(Expander& in, std::uint32_t source) {
+const std::vector<StoredToken>& tokens_of(Parser& p, std::uint32_t source) {
+    Expander& in = p.in;
     while (in.texts.size() <= source) in.texts.emplace_back();
-    if (in.texts[source].empty()) {
-        in.texts[source] = lex(in.sources.files[source], source, in.words, in.strings);
+    std::vector<StoredToken>& tokens = in.texts[source];
+    if (tokens.empty()) {
+        LexRange all;
+        all.most = tokens_allowed(in);
+        tokens = lex(in.sources.files[source], in.words, in.strings, all);
+        *in.bytes += static_cast<std::int64_t>(tokens.size() * sizeof(StoredToken));
         in.symbols.resize(in.words.texts.size());
     }
-    return in.texts[source];
+    return tokens;
 }
 
 // ---- names
@@ -358,21 +411,21 @@ Nesting::Nesting(Parser& p, const Token& at) : in(p.in) {
     const auto depth = static_cast<std::size_t>(++in.used.nesting) + in.blocks.size();
     if (depth > static_cast<std::size_t>(in.options.budgets.nesting)) {
         --in.used.nesting;
-        stop(p, at, fmt::format("nested deeper than {} levels", in.options.budgets.nesting));
+        stop_at_limit(p, at, &Budgets::nesting, fmt::format("nested deeper than {} levels", in.options.budgets.nesting));
     }
 }
 
 void charge_work(Parser& p, const Token& at, std::int64_t tokens) {
     p.in.used.tokens += tokens;
     if (p.in.used.tokens > p.in.options.budgets.tokens)
-        stop(p, at, "arrays, strings and files take more work than a scene may ask for",
+        stop_at_limit(p, at, &Budgets::tokens, "arrays, strings and files take more work than a scene may ask for",
              "does a loop make them without an end?");
 }
 
 void charge(Parser& p, const Token& at, std::size_t bytes) {
     *p.in.bytes += static_cast<std::int64_t>(bytes);
     if (*p.in.bytes > p.in.options.budgets.bytes)
-        stop(p, at, fmt::format("the scene needs more than {} MB", p.in.options.budgets.bytes / 1'000'000),
+        stop_at_limit(p, at, &Budgets::bytes, fmt::format("the scene needs more than {} MB", p.in.options.budgets.bytes / 1'000'000),
              "does a loop make objects without an end?");
 }
 

@@ -28,7 +28,7 @@ struct Parser;
 struct Macro {
     Symbol name = 0;
     std::vector<Symbol> parameters;
-    const Token* tokens = nullptr;
+    const StoredToken* tokens = nullptr;
     std::uint32_t begin = 0, end = 0; // of the body; tokens[end] is the #end
     std::uint32_t source = 0;
     Span span; // of the name in the #macro line
@@ -50,14 +50,15 @@ struct SymbolEntry {
 };
 
 struct TokenFrame {
-    const Token* tokens = nullptr;
+    const StoredToken* tokens = nullptr;
     std::uint32_t position = 0, end = 0;
     std::uint32_t chain = 0; // of the tokens that come from here
     std::uint32_t scope = 0;
     std::uint32_t source = 0;
     std::size_t first_local = 0;        // Expander::locals from here on belong to this scope
     std::size_t first_loop = 0;         // likewise Expander::loops
-    std::shared_ptr<const Macro> macro; // null: a file
+    std::shared_ptr<const Macro> macro; // null: a file, or a part of one
+    bool part = false;                  // a list of numbers, read in the scope of the frame below
 };
 
 struct ForLoop {            // a #for that is running
@@ -99,7 +100,8 @@ struct Expander {
 
     Words words;
     std::vector<std::string> strings;
-    std::deque<std::vector<Token>> texts;                 // tokens, by source
+    std::deque<std::vector<StoredToken>> texts;           // tokens, by source
+    std::unordered_map<std::uint64_t, std::vector<StoredToken>> parts; // of `numbers` tokens, by source and place
     std::unordered_map<std::string, std::string> written; // texts that #write made, by the name it was given
     std::unordered_map<std::string, std::uint32_t> files; // path -> source, of included files
 
@@ -119,7 +121,7 @@ struct Expander {
     Hold hold;
 
     Counters used;
-    const Token* last_loop = nullptr; // the #while or #for that turned last
+    Token last_loop; // the #while or #for that turned last
     std::shared_ptr<std::int64_t> bytes =
         std::make_shared<std::int64_t>(0); // in use; arrays give theirs back
     int errors = 0;
@@ -140,6 +142,9 @@ struct ParseStop {};
 // ---------------------------------------------------------------------------------------------------
 
 void fill_buffer(Parser& p); // the next token after expansion into in.buffer
+// May an expression end before tokens[index] for certain, whatever runs next? Not at a macro, nor where directives
+// or the frame around have a word.
+bool ends_here(const Expander& in, const TokenFrame& frame, std::uint32_t index);
 // Between an operand and an operator: like peek, but in a directive's expression it shows `end` where the
 // expression must end before the next directive runs.
 const Token& peek_operator(Parser& p);
@@ -153,7 +158,25 @@ void push_text(Parser& p, std::uint32_t source,
                const Token& at); // a frame over a whole text, with its own scope
 void push_macro(Parser& p, const std::shared_ptr<const Macro>& macro, const Token& at);
 void pop_frame(Parser& p);
-const std::vector<Token>& tokens_of(Expander& in, std::uint32_t source); // lexed on first use
+const std::vector<StoredToken>& tokens_of(Parser& p, std::uint32_t source); // lexed on first use
+// A stored token as the parser sees it. A directive's `value` is its jump.
+inline TokenKind kind_of(const StoredToken& token) { return static_cast<TokenKind>(token.kind); }
+inline Token unpack(const StoredToken& stored, std::uint32_t source, std::uint32_t chain) {
+    Token token;
+    token.kind = kind_of(stored);
+    token.span = {source, stored.begin, stored.begin + stored.length};
+    token.chain = chain;
+    if (token.kind == TokenKind::number) {
+        token.value = stored.number;
+    } else {
+        token.symbol = stored.name.symbol;
+        token.value = stored.name.jump;
+    }
+    return token;
+}
+inline bool is(const StoredToken& token, char punctuation) {
+    return kind_of(token) == TokenKind::punctuation && token.name.symbol == static_cast<Symbol>(punctuation);
+}
 
 // ---- names
 // ----------------------------------------------------------------------------------------------------------
@@ -194,5 +217,8 @@ inline std::int64_t letters_work(std::size_t letters) { return static_cast<std::
 void charge_work(Parser& p, const Token& at, std::int64_t tokens);
 [[noreturn]] void give_up(Parser& p, const Token& at);
 [[noreturn]] void stop(Parser& p, const Token& at, std::string message, std::string help = {});
+// The same for a budget that is used up: the help says how to raise it, behind `question`.
+[[noreturn]] void stop_at_limit(Parser& p, const Token& at, std::int64_t Budgets::*budget, std::string message,
+                                std::string question = {});
 
 } // namespace pnr

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parser/expression.h"
 
+#include "parser/quick_expression.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,98 +11,21 @@ namespace pnr {
 
 namespace {
 
-// Binding powers of POV-Ray's operators; & and | bind alike, as do all comparisons.
-enum Power : int { none = 0, logical = 1, comparison = 2, sum = 3, product = 4 };
-
-constexpr Symbol two(char a, char b) { return static_cast<Symbol>(a) | static_cast<Symbol>(b) << 8; }
-
 Power power_of(const Token& token, Angles angles) {
-    if (token.kind != TokenKind::punctuation) return none;
-    switch (token.symbol) {
-    case '*':
-    case '/':
-        return product;
-    case '+':
-    case '-':
-        return sum;
-    case '<':
-    case '>':
-    case '=':
-    case two('<', '='):
-    case two('>', '='):
-    case two('!', '='):
-        return angles == Angles::compare ? comparison : none;
-    case '&':
-    case '|':
-        return angles == Angles::compare ? logical : none;
-    default:
-        return none;
-    }
+    return token.kind == TokenKind::punctuation ? operator_power(token.symbol, angles) : none;
 }
 
-// Equal means within 1e-10, as for POV-Ray.
-double compare(Symbol op, double a, double b) {
-    const bool equal = std::abs(a - b) < 1e-10;
-    switch (op) {
-    case '<':
-        return a < b && !equal;
-    case '>':
-        return a > b && !equal;
-    case '=':
-        return equal;
-    case two('<', '='):
-        return a < b || equal;
-    case two('>', '='):
-        return a > b || equal;
-    default:
-        return !equal;
+void apply(Parser& p, const Token& op, VectorValue& a, const VectorValue& b) {
+    switch (combine(op.symbol, a, b)) {
+    case Fault::none:
+        return;
+    case Fault::division_by_zero:
+        fail(p, op, "division by zero");
+    case Fault::not_a_number:
+        fail(p, op, "the result is not a number");
+    case Fault::too_large:
+        fail(p, op, "the result is too large for a number");
     }
-}
-
-double apply_scalar(Parser& p, const Token& op, double a, double b) {
-    switch (op.symbol) {
-    case '+':
-        return a + b;
-    case '-':
-        return a - b;
-    case '*':
-        return a * b;
-    case '/':
-        if (b == 0) fail(p, op, "division by zero");
-        return a / b;
-    case '&':
-        return is_true(a) && is_true(b);
-    case '|':
-        return is_true(a) || is_true(b);
-    default:
-        return compare(op.symbol, a, b);
-    }
-}
-
-void require_finite(Parser& p, const Token& at, double value) {
-    if (!std::isfinite(value))
-        fail(p, at,
-             std::isnan(value) ? "the result is not a number" : "the result is too large for a number");
-}
-
-VectorValue apply(Parser& p, const Token& op, VectorValue a, VectorValue b) {
-    if (a.size == 1 && b.size == 1) {
-        const double value = apply_scalar(p, op, a.v[0], b.v[0]);
-        require_finite(p, op, value);
-        return scalar(value);
-    }
-    const int size = std::max(a.size, b.size);
-    promote(a, size);
-    promote(b, size);
-    if (op.symbol == '/')
-        for (int i = 0; i < size; ++i) // a zero that promotion filled in divides nothing
-            if (b.v[i] == 0 && a.v[i] == 0 && i >= 3) b.v[i] = 1;
-    for (int i = 0; i < size; ++i) {
-        a.v[i] = apply_scalar(p, op, a.v[i], b.v[i]);
-        require_finite(p, op, a.v[i]);
-    }
-    a.is_color = a.is_color || b.is_color;
-    return a;
 }
 
 VectorValue parse_unary(Parser& p) {
@@ -128,11 +53,12 @@ VectorValue parse_binary(Parser& p, int minimum, Angles angles) {
         const Token op = next(p);
         // Deeper only for operators that bind more tightly: left to right among equals.
         const VectorValue right = parse_binary(p, power + 1, angles);
-        left = apply(p, op, left, right);
+        apply(p, op, left, right);
     }
 }
 
 VectorValue parse_conditional(Parser& p, Angles angles) {
+    if (VectorValue quick; quick_expression(p, angles, quick)) return quick;
     const VectorValue value = parse_binary(p, logical, angles);
     if (!is(peek_operator(p), '?')) return value;
     const Token question = next(p);
@@ -155,14 +81,6 @@ bool compare_strings(Parser& p) {
 }
 
 } // namespace
-
-void promote(VectorValue& value, int size) {
-    if (value.size == 1)
-        for (int i = 1; i < size; ++i) value.v[i] = value.v[0];
-    else
-        for (int i = value.size; i < size; ++i) value.v[i] = 0;
-    value.size = std::max(value.size, size);
-}
 
 double scalar_of(Parser& p, const VectorValue& value, const Token& at) {
     if (value.size != 1)

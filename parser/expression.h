@@ -6,6 +6,7 @@
 // its components, and a shorter vector beside a longer one is filled up with zeros.
 #pragma once
 
+#include "parser/arithmetic.h"
 #include "parser/parser.h"
 
 #include <cmath>
@@ -14,10 +15,6 @@
 #include <utility>
 
 namespace pnr {
-
-// Where an expression stands: whether `<` and `>` between operands compare. In blocks and inside vectors they
-// don't: there `<` starts the next vector and `>` closes this one.
-enum class Angles : bool { bracket, compare };
 
 VectorValue parse_operand_expression(Parser& p,
                                      Angles angles); // numbers, vectors and colours; finite or an error

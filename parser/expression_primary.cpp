@@ -5,34 +5,12 @@
 #include "parser/color_space.h"
 #include "parser/expression.h"
 #include "parser/function.h"
+#include "parser/quick_expression.h"
 #include "parser/spline.h"
 
 #include <fmt/format.h>
 
 namespace pnr {
-
-int component_index(Keyword word) {
-    switch (word) {
-    case "x"_kw:
-    case "u"_kw:
-    case "red"_kw:
-        return 0;
-    case "y"_kw:
-    case "v"_kw:
-    case "green"_kw:
-        return 1;
-    case "z"_kw:
-    case "blue"_kw:
-        return 2;
-    case "t"_kw:
-    case "filter"_kw:
-        return 3;
-    case "transmit"_kw:
-        return 4;
-    default:
-        return -1;
-    }
-}
 
 namespace {
 
@@ -432,7 +410,7 @@ Value array_value(Parser& p) {
         if (size < 1) fail(p, first, "an array needs at least one element");
         count *= size;
         if (count > static_cast<double>(p.in.options.budgets.array_elements))
-            stop(p, first,
+            stop_at_limit(p, first, &Budgets::array_elements,
                  fmt::format("the array has more than {} elements", p.in.options.budgets.array_elements));
         expect(p, ']', "to close the size");
         dimensions.push_back(static_cast<int>(size));
@@ -452,6 +430,8 @@ namespace {
 
 // Between the values of an array the commas may be missing: there `<` starts the next one.
 Value value_of(Parser& p, Angles angles) {
+    if (VectorValue quick; quick_expression(p, angles, quick))
+        return quick.size == 1 ? Value{quick.v[0]} : Value{quick};
     const Token token = peek(p);
     const Nesting nesting(p, token);
     if (token.kind == TokenKind::string) return Value{parse_string(p)};

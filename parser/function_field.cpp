@@ -180,9 +180,14 @@ std::optional<Number> write_internal(Writer& w, std::string_view name, const std
 }
 
 // What is known of the values and the steepness of internal functions.
-OpaqueField known_bounds(std::string_view name, OpaqueField field) {
-    if (name == "f_noise3d" || name == "f_noise_generator") field.low = 0, field.high = 1;
-    if (name == "f_noise3d") field.lipschitz = 4; // measured: see function_field_test
+OpaqueField known_bounds(const Writer& w, std::string_view name, const std::vector<Number>& arguments) {
+    OpaqueField field;
+    if (name != "f_noise_generator") return field;
+    field.low = 0, field.high = 1;
+    // The steepest places that searching has found: 2.77 of generator 1, 1.36 of the others.
+    const FieldStep& generator = w.program.steps[arguments[3]];
+    const bool newer = generator.op == FieldOp::constant && (generator.value == 2 || generator.value == 3);
+    field.lipschitz = newer ? 1.5 : 3;
     return field;
 }
 
@@ -242,7 +247,9 @@ Number write_step(Writer& w, const Function& function, const Instruction& step, 
         const InternalFunction& internal = internal_functions()[step.index];
         const auto a = take(internal.parameters);
         if (const auto written = write_internal(w, internal.name, a)) return *written;
-        return w.call(known_bounds(internal.name, {internal.evaluate}), a);
+        OpaqueField field = known_bounds(w, internal.name, a);
+        field.value = internal.evaluate;
+        return w.call(std::move(field), a);
     }
     case Kind::quotient: {
         const auto a = take(2);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parser/lexer.h"
 
-#include "parser/keywords.h"
-#include "parser/number_run.h"
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstring>
 
@@ -31,25 +32,26 @@ std::string_view american(std::string_view word) {
 }
 
 struct Lexer {
-    const SourceText& source;
-    std::uint32_t source_index;
     Words& words;
     std::vector<std::string>& strings;
-    std::vector<Token> tokens;
+    std::vector<StoredToken> tokens;
     const char* begin;
     const char* at;
     const char* end;
+    bool keep_numbers;
+    std::int64_t most;
 };
 
-Token make_token(const Lexer& lexer, TokenKind kind, const char* from, Symbol symbol, double value = 0) {
-    return {kind, symbol, value,
-            Span{lexer.source_index, static_cast<std::uint32_t>(from - lexer.begin),
-                 static_cast<std::uint32_t>(lexer.at - lexer.begin)},
-            0};
-}
-
-void add(Lexer& lexer, TokenKind kind, const char* from, Symbol symbol, double value = 0) {
-    lexer.tokens.push_back(make_token(lexer, kind, from, symbol, value));
+StoredToken& add(Lexer& lexer, TokenKind kind, const char* from, Symbol symbol) {
+    constexpr std::size_t longest = (1u << 28) - 1;
+    StoredToken& token = lexer.tokens.emplace_back();
+    token.name = {symbol, no_jump};
+    token.begin = static_cast<std::uint32_t>(from - lexer.begin);
+    token.kind = static_cast<std::uint32_t>(kind) & 15;
+    token.length = static_cast<std::uint32_t>(std::min<std::size_t>(
+                       static_cast<std::size_t>(lexer.at - from), longest)) &
+                   longest;
+    return token;
 }
 
 void add_invalid(Lexer& lexer, const char* from, std::string message) {
@@ -184,44 +186,14 @@ void lex_number(Lexer& lexer) {
         }
         value = 0;
     }
-    add(lexer, TokenKind::number, from, 0, value);
-}
-
-bool is_number_list(Symbol word) {
-    switch (static_cast<Keyword>(word)) {
-    case "vertex_vectors"_kw:
-    case "normal_vectors"_kw:
-    case "uv_vectors"_kw:
-    case "face_indices"_kw:
-    case "normal_indices"_kw:
-    case "uv_indices"_kw:
-        return true;
-    default:
-        return false;
-    }
-}
-
-// Behind the word of such a list: `{` and a run of plain numbers, if it is worth it.
-void lex_number_run(Lexer& lexer) {
-    constexpr std::ptrdiff_t worth_it = 64;
-    const char* brace = lexer.at;
-    while (brace < lexer.end && (*brace == ' ' || *brace == '\n' || *brace == '\t' || *brace == '\r')) ++brace;
-    if (brace == lexer.end || *brace != '{') return;
-    const char* const end = end_of_number_run(brace + 1, lexer.end);
-    if (!end || end - brace < worth_it) return;
-    lexer.at = brace + 1;
-    add(lexer, TokenKind::punctuation, brace, static_cast<Symbol>('{'));
-    lexer.at = end;
-    add(lexer, TokenKind::numbers, brace + 1, 0);
+    add(lexer, TokenKind::number, from, 0).number = value;
 }
 
 void lex_word(Lexer& lexer) {
     const char* from = lexer.at;
     while (lexer.at < lexer.end && (is_letter(*lexer.at) || is_digit(*lexer.at))) ++lexer.at;
     const std::string_view word(from, static_cast<std::size_t>(lexer.at - from));
-    const Symbol symbol = lexer.words.intern(american(word));
-    add(lexer, TokenKind::word, from, symbol);
-    if (is_number_list(symbol)) lex_number_run(lexer);
+    add(lexer, TokenKind::word, from, lexer.words.intern(american(word)));
 }
 
 void lex_directive(Lexer& lexer) {
@@ -236,7 +208,7 @@ void lex_directive(Lexer& lexer) {
         return;
     }
     const Symbol name = lexer.words.intern({word, static_cast<std::size_t>(lexer.at - word)});
-    add(lexer, TokenKind::directive, from, name, no_jump);
+    add(lexer, TokenKind::directive, from, name);
 }
 
 std::string invalid_character(char c) {
@@ -263,31 +235,78 @@ void lex_punctuation(Lexer& lexer) {
     add(lexer, TokenKind::punctuation, from, symbol);
 }
 
+// Which bytes a list of numbers is made of.
+constexpr std::array<bool, 256> make_number_bytes() {
+    std::array<bool, 256> bytes{};
+    for (const char c : {'+', '-', '.', ',', '<', '>', 'e', 'E', ' ', '\n', '\r', '\t'})
+        bytes[static_cast<unsigned char>(c)] = true;
+    for (char c = '0'; c <= '9'; ++c) bytes[static_cast<unsigned char>(c)] = true;
+    return bytes;
+}
+constexpr std::array<bool, 256> number_bytes = make_number_bytes();
+
+bool starts_number_list(const Lexer& lexer) {
+    const std::size_t n = lexer.tokens.size();
+    if (n < 2 || lexer.tokens[n - 2].kind != static_cast<std::uint32_t>(TokenKind::word)) return false;
+    switch (static_cast<Keyword>(lexer.tokens[n - 2].name.symbol)) {
+    case "vertex_vectors"_kw:
+    case "normal_vectors"_kw:
+    case "uv_vectors"_kw:
+    case "face_indices"_kw:
+    case "normal_indices"_kw:
+    case "uv_indices"_kw:
+    case "triangle"_kw:
+    case "smooth_triangle"_kw:
+        return true;
+    default:
+        return false;
+    }
+}
+
+// Behind the `{` of a mesh's list: all up to its `}` as one token, if it is nothing but numbers.
+void lex_number_list(Lexer& lexer) {
+    constexpr std::ptrdiff_t worth_it = 20; // bytes
+    const char* from = lexer.at;
+    const char* at = from;
+    while (at < lexer.end && number_bytes[static_cast<unsigned char>(*at)]) ++at;
+    if (at == lexer.end || *at != '}' || at - from < worth_it) return;
+    lexer.at = at;
+    add(lexer, TokenKind::numbers, from, 0);
+}
+
+void lex_token(Lexer& lexer) {
+    const char c = *lexer.at;
+    const char following = lexer.at + 1 < lexer.end ? lexer.at[1] : '\0';
+    if (c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v')
+        ++lexer.at;
+    else if (is_digit(c) || (c == '.' && is_digit(following)))
+        lex_number(lexer);
+    else if (is_letter(c))
+        lex_word(lexer);
+    else if (c == '/' && following == '/') {
+        while (lexer.at < lexer.end && *lexer.at != '\n' && *lexer.at != '\r') ++lexer.at;
+    } else if (c == '/' && following == '*')
+        skip_block_comment(lexer);
+    else if (c == '"')
+        lex_string(lexer);
+    else if (c == '#')
+        lex_directive(lexer);
+    else if (c == 0x1a && lexer.at + 1 == lexer.end)
+        ++lexer.at; // DOS end of file
+    else {
+        lex_punctuation(lexer);
+        if (c == '{' && lexer.keep_numbers && starts_number_list(lexer)) lex_number_list(lexer);
+    }
+}
+
 void lex_all(Lexer& lexer) {
-    if (lexer.source.text.starts_with("\xef\xbb\xbf")) lexer.at += 3;
+    if (lexer.at == lexer.begin && std::string_view(lexer.at, lexer.end).starts_with("\xef\xbb\xbf"))
+        lexer.at += 3;
     while (lexer.at < lexer.end) {
-        const char c = *lexer.at;
-        const char following = lexer.at + 1 < lexer.end ? lexer.at[1] : '\0';
-        if (c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v')
-            ++lexer.at;
-        else if (is_digit(c) || (c == '.' && is_digit(following)))
-            lex_number(lexer);
-        else if (is_letter(c))
-            lex_word(lexer);
-        else if (c == '/' && following == '/') {
-            const void* line_end =
-                std::memchr(lexer.at, '\n', static_cast<std::size_t>(lexer.end - lexer.at));
-            lexer.at = line_end ? static_cast<const char*>(line_end) : lexer.end;
-        } else if (c == '/' && following == '*')
-            skip_block_comment(lexer);
-        else if (c == '"')
-            lex_string(lexer);
-        else if (c == '#')
-            lex_directive(lexer);
-        else if (c == 0x1a && lexer.at + 1 == lexer.end)
-            ++lexer.at; // DOS end of file
-        else
-            lex_punctuation(lexer);
+        lex_token(lexer);
+        if (static_cast<std::int64_t>(lexer.tokens.size()) < lexer.most) continue;
+        add_invalid(lexer, lexer.at - 1, fmt::format("the scene's texts need too much memory: they have more than {} tokens", lexer.most));
+        lexer.at = lexer.end;
     }
     add(lexer, TokenKind::end, lexer.at, 0);
 }
@@ -301,11 +320,13 @@ struct Opened {
     std::vector<std::size_t> breaks; // waiting for the #end
 };
 
+bool is_directive(const StoredToken& token) { return token.kind == static_cast<std::uint32_t>(TokenKind::directive); }
+
 bool takes_break(Keyword name) { return name == "while"_kw || name == "for"_kw || name == "switch"_kw; }
 
-void note_break(const std::vector<Token>& tokens, std::vector<Opened>& stack, std::size_t at) {
+void note_break(const std::vector<StoredToken>& tokens, std::vector<Opened>& stack, std::size_t at) {
     for (auto open = stack.rbegin(); open != stack.rend(); ++open) {
-        const auto name = static_cast<Keyword>(tokens[open->opener].symbol);
+        const auto name = static_cast<Keyword>(tokens[open->opener].name.symbol);
         if (takes_break(name)) {
             open->breaks.push_back(at);
             return;
@@ -314,12 +335,12 @@ void note_break(const std::vector<Token>& tokens, std::vector<Opened>& stack, st
     }
 }
 
-void pair_directives(std::vector<Token>& tokens, std::vector<std::string>& strings) {
+void pair_directives(std::vector<StoredToken>& tokens, std::vector<std::string>& strings) {
     std::vector<Opened> stack;
     for (std::size_t i = 0; i < tokens.size(); ++i) {
-        if (tokens[i].kind != TokenKind::directive) continue;
-        const auto name = static_cast<Keyword>(tokens[i].symbol);
-        const auto index = static_cast<double>(i);
+        if (!is_directive(tokens[i])) continue;
+        const auto name = static_cast<Keyword>(tokens[i].name.symbol);
+        const auto index = static_cast<std::uint32_t>(i);
         if (is_opener(name)) {
             stack.push_back({i, i, {}});
         } else if (name == "break"_kw) {
@@ -327,22 +348,22 @@ void pair_directives(std::vector<Token>& tokens, std::vector<std::string>& strin
         } else if (stack.empty()) {
             continue;
         } else if (name == "else"_kw || name == "elseif"_kw || name == "case"_kw || name == "range"_kw) {
-            tokens[stack.back().last_branch].value = index;
+            tokens[stack.back().last_branch].name.jump = index;
             stack.back().last_branch = i;
         } else if (name == "end"_kw) {
             const Opened& open = stack.back();
-            tokens[open.last_branch].value = index;
-            for (const std::size_t each : open.breaks) tokens[each].value = index;
-            tokens[i].value = static_cast<double>(open.opener);
+            tokens[open.last_branch].name.jump = index;
+            for (const std::size_t each : open.breaks) tokens[each].name.jump = index;
+            tokens[i].name.jump = static_cast<std::uint32_t>(open.opener);
             stack.pop_back();
         }
     }
     for (const Opened& open : stack) {
-        Token& opener = tokens[open.opener];
-        strings.push_back("`#" + std::string(keyword_text(static_cast<Keyword>(opener.symbol))) +
+        StoredToken& opener = tokens[open.opener];
+        strings.push_back("`#" + std::string(keyword_text(static_cast<Keyword>(opener.name.symbol))) +
                           "` opened here is never closed by `#end`");
-        opener.kind = TokenKind::invalid;
-        opener.symbol = static_cast<Symbol>(strings.size() - 1);
+        opener.kind = static_cast<std::uint32_t>(TokenKind::invalid) & 15;
+        opener.name.symbol = static_cast<Symbol>(strings.size() - 1);
     }
 }
 
@@ -377,11 +398,12 @@ Symbol Words::intern(std::string_view word) {
     return static_cast<Symbol>(texts.size() - 1);
 }
 
-std::vector<Token> lex(const SourceText& source, std::uint32_t source_index, Words& words,
-                       std::vector<std::string>& strings) {
+std::vector<StoredToken> lex(const SourceText& source, Words& words, std::vector<std::string>& strings,
+                             const LexRange& range) {
     const char* begin = source.text.data();
-    Lexer lexer{source, source_index, words, strings, {}, begin, begin, begin + source.text.size()};
-    lexer.tokens.reserve(std::min<std::size_t>(source.text.size() / 4, 1 << 16)); // lists of numbers need few
+    const char* end = begin + std::min<std::size_t>(range.end, source.text.size());
+    Lexer lexer{words, strings, {}, begin, begin + range.begin, end, range.keep_numbers, range.most};
+    lexer.tokens.reserve(static_cast<std::size_t>(end - lexer.at) / 5 + 2);
     lex_all(lexer);
     pair_directives(lexer.tokens, strings);
     return std::move(lexer.tokens);

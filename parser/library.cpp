@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parser/library.h"
 
+#include "core/atomic_file.h"
 #include "parser/parser.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
-#include <fstream>
+#include <memory>
 #include <system_error>
 
 namespace pnr {
@@ -123,20 +125,39 @@ std::uint32_t add_file(Parser& p, const Token& at, const std::string& path) {
     Expander& in = p.in;
     const auto known = in.files.find(path);
     if (known != in.files.end()) return known->second;
-    std::error_code error;
-    const auto size = fs::file_size(path, error);
-    if (!error && static_cast<std::int64_t>(size) > in.options.budgets.file_bytes)
-        stop(p, at,
-             fmt::format("\"{}\" is larger than {} MB", path, in.options.budgets.file_bytes / 1'000'000));
-    std::ifstream stream(path, std::ios::binary);
-    std::string text(std::istreambuf_iterator<char>(stream), {});
-    if (!stream) fail(p, at, fmt::format("\"{}\" cannot be read", path));
-    const std::uint32_t source = in.sources.add(path, std::move(text));
+    const auto most = static_cast<std::size_t>(in.options.budgets.file_bytes);
+    std::optional<std::string> text = read_text(path, most);
+    if (!text) fail(p, at, fmt::format("\"{}\" cannot be read", path));
+    if (text->size() > most)
+        stop_at_limit(p, at, &Budgets::file_bytes,
+                      fmt::format("\"{}\" is larger than {} MB", path, most / 1'000'000));
+    charge(p, at, text->size());
+    const std::uint32_t source = in.sources.add(path, std::move(*text));
     in.files.emplace(path, source);
     return source;
 }
 
 } // namespace
+
+std::optional<std::string> read_text(const std::string& path, std::size_t most) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+    if (!file) return {};
+    std::error_code error;
+    const auto size = fs::file_size(path, error);
+    constexpr std::size_t step = 1 << 16;
+    std::string text;
+    text.reserve(std::min<std::size_t>(error ? 0 : size, most) + step);
+    while (text.size() <= most) {
+        const std::size_t before = text.size();
+        text.resize(before + step);
+        const std::size_t got = std::fread(text.data() + before, 1, step, file.get());
+        text.resize(before + got);
+        if (got == 0) break;
+    }
+    if (std::ferror(file.get())) return {};
+    if (text.size() > most) text.resize(most + 1);
+    return text;
+}
 
 std::vector<fs::path> povray_folders() {
     std::vector<fs::path> folders;
@@ -160,6 +181,7 @@ std::uint32_t open_include(Parser& p, const Token& at, const std::string& name) 
         const auto known = in.files.find(shown);
         if (known != in.files.end() && in.sources.files[known->second].text == text->second)
             return known->second;
+        charge(p, at, text->second.size());
         return in.files[shown] = in.sources.add(shown, text->second);
     }
     const Found found = find_in(in, search_folders(in), name);
@@ -176,6 +198,23 @@ std::uint32_t open_include(Parser& p, const Token& at, const std::string& name) 
     const Found installed = find_in(in, povray_folders(), name);
     if (!installed.path.empty()) return add_file(p, at, installed.path);
     fail_missing(p, at, name, true, found.refused || installed.refused);
+}
+
+fs::path writable_path(const Expander& in, const std::string& name) {
+    const fs::path& folder = in.options.allow_write;
+    if (folder.empty() || name.empty() || name.find('\0') != std::string::npos) return {};
+    const fs::path file = folder / name; // an absolute name stands alone
+    return lies_below(real_path(file), real_path(folder)) ? file : fs::path();
+}
+
+void write_files(const Expander& in) {
+    for (const auto& [name, text] : in.written) {
+        const fs::path file = writable_path(in, name);
+        if (file.empty()) continue;
+        std::error_code error; // shows when the file is written
+        fs::create_directories(file.parent_path(), error);
+        write_file_atomically(file, text);
+    }
 }
 
 bool file_exists(Parser& p, const std::string& name) {

@@ -23,6 +23,15 @@ const std::vector<EmbeddedFile>& embedded_files(); // written by the build (embe
 // none.
 std::uint32_t open_include(Parser& p, const Token& at, const std::string& name);
 
+// A whole text, at most `most` bytes of it and one more: who gets that knows that it is too long. Nothing if it
+// cannot be read.
+std::optional<std::string> read_text(const std::string& path, std::size_t most);
+
+// Where a file that the scene writes lands on disk: below LoadOptions::allow_write. Empty: it stays in memory.
+std::filesystem::path writable_path(const Expander& in, const std::string& name);
+// Writes all that #fopen opened for writing and that may be written. Throws FileError.
+void write_files(const Expander& in);
+
 bool file_exists(Parser& p, const std::string& name);
 
 // Folders of POV-Ray's includes on this machine, e.g. /usr/share/povray-3.7/include; newest first.

@@ -8,17 +8,25 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
+#include <cstring>
 #include <new>
+#include <optional>
 
 namespace pnr {
 
 namespace {
 
-// FNV-1a over every text of the run and every declaration from outside.
+// After FNV-1a, over every text of the run and every declaration from outside.
 std::uint64_t hash_of(const Sources& sources, const LoadOptions& options) {
     std::uint64_t h = 14695981039346656037ull;
     const auto add = [&](std::string_view text) {
+        while (text.size() >= sizeof(std::uint64_t)) { // words first: the large part
+            std::uint64_t word = 0;
+            std::memcpy(&word, text.data(), sizeof word);
+            h = (h ^ word) * 1099511628211ull;
+            h ^= h >> 32;
+            text.remove_prefix(sizeof word);
+        }
         for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ull;
         h = (h ^ text.size()) * 1099511628211ull;
     };
@@ -68,7 +76,7 @@ void say_memory_ran_out(Expander& in) {
     Span at;
     if (!in.frames.empty()) {
         const TokenFrame& frame = in.frames.back();
-        at = frame.tokens[frame.position > 0 ? frame.position - 1 : 0].span;
+        at = unpack(frame.tokens[frame.position > 0 ? frame.position - 1 : 0], frame.source, 0).span;
     }
     ++in.errors;
     in.diagnostics.push_back({Severity::error,
@@ -94,8 +102,10 @@ LoadResult load_scene_text(std::string text, const std::string& name, const Load
         in.symbols.resize(in.words.texts.size());
         declare_givens(p);
         declare_from_outside(p);
+        charge(p, Token{}, in.sources.files[source].text.size());
         push_text(p, source, Token{});
         parse_scene(p);
+        write_files(in);
     } catch (const ParseFailure&) {
     } catch (const ParseStop&) {
     } catch (const std::bad_alloc&) {
@@ -110,10 +120,13 @@ LoadResult load_scene_text(std::string text, const std::string& name, const Load
 }
 
 LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& options) {
-    std::ifstream stream(file, std::ios::binary);
-    std::string text(std::istreambuf_iterator<char>(stream), {});
-    if (!stream) throw FileError(fmt::format("{} cannot be read", file.string()));
-    return load_scene_text(std::move(text), file.string(), options);
+    const auto most = static_cast<std::size_t>(options.budgets.file_bytes);
+    std::optional<std::string> text = read_text(file.string(), most);
+    if (!text) throw FileError(fmt::format("{} cannot be read", file.string()));
+    if (text->size() > most)
+        throw FileError(fmt::format("{} is larger than {} MB; {}", file.string(), most / 1'000'000,
+                                    limit_help(options.budgets, &Budgets::file_bytes)));
+    return load_scene_text(std::move(*text), file.string(), options);
 }
 
 std::string default_scene_text() {

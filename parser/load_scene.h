@@ -5,6 +5,7 @@
 #include "core/scene.h"
 #include "core/settings.h"
 #include "parser/diagnostic.h"
+#include "parser/limits.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,23 +17,6 @@
 
 namespace pnr {
 
-// What a scene's text may use up, so that none can hang the program or exhaust the machine. Beyond: a located
-// error.
-struct Budgets {
-    std::int64_t loop_turns = 20'000'000; // of #while and #for together
-    std::int64_t macro_calls = 10'000'000;
-    std::int64_t tokens = 100'000'000;       // read after expansion
-    std::int64_t bytes = 900'000'000;        // of objects, meshes, arrays and strings
-    std::int64_t array_elements = 4'000'000; // of one array
-    std::int64_t string_length = 1'000'000;
-    std::int64_t file_bytes = 1'000'000'000; // of one text
-    int macro_depth = 300, include_depth = 64;
-    int nesting = 400;               // braces and parentheses
-    int errors = 50, warnings = 200; // reported in one run
-    int failures = 20'000;           // places that could not be read, also those that are not reported again
-    std::size_t debug_output = 16'000'000; // bytes of #debug text that are kept
-};
-
 struct LoadOptions {
     std::vector<std::filesystem::path>
         library; // -L folders, then PNR_LIBRARY_PATH; ours and POV-Ray's are appended
@@ -42,6 +26,7 @@ struct LoadOptions {
     double clock = 0;
     int frame_number = 0, initial_frame = 0, final_frame = 0; // of a single picture: 0
     Budgets budgets;
+    std::filesystem::path allow_write; // files that #fopen writes land below it; empty: they stay in memory
 };
 
 struct LoadResult {

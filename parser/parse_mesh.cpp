@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Triangles: alone, in meshes, in lists of numbers, in files; and bicubic patches.
 #include "parser/blocks.h"
-#include "parser/number_run.h"
+#include "parser/number_list.h"
 
 #include <cstring>
 #include <map>
@@ -54,9 +54,13 @@ struct MeshBuilder {
 std::shared_ptr<const DeclaredBlock> lone_declared(const Parser& p) {
     const TokenFrame& frame = p.in.frames.back();
     if (p.in.buffered || frame.position + 3 > frame.end) return nullptr;
-    const Token* const next = frame.tokens + frame.position;
-    if (!is(next[0], '{') || next[1].kind != TokenKind::word || !is(next[2], '}')) return nullptr;
-    const Value* value = lookup(p.in, next[1].symbol);
+    const StoredToken* const next = frame.tokens + frame.position;
+    const auto is_brace = [](const StoredToken& token, char c) {
+        return kind_of(token) == TokenKind::punctuation && token.name.symbol == static_cast<Symbol>(c);
+    };
+    if (!is_brace(next[0], '{') || kind_of(next[1]) != TokenKind::word || !is_brace(next[2], '}'))
+        return nullptr;
+    const Value* value = lookup(p.in, next[1].name.symbol);
     const auto* block = value ? std::get_if<std::shared_ptr<const DeclaredBlock>>(&value->data) : nullptr;
     return block ? *block : nullptr;
 }
@@ -216,80 +220,18 @@ std::size_t parse_count(Parser& p) {
     return static_cast<std::size_t>(count);
 }
 
-[[noreturn]] void fail_count(Parser& p, const Token& at, std::string_view what, std::size_t count,
-                             std::size_t found) {
-    if (found > count) fail(p, at, fmt::format("`{}` says {} entries, here are more", what, count));
-    fail(p, at, fmt::format("`{}` says {} entries, here are {}", what, count, found));
-}
-
-// A token at the place where a run of numbers is being read.
-Token token_of(Parser& p, const Token& run, const NumberReader& in) {
-    Token token = run;
-    const char* text = p.in.sources.files[run.span.source].text.data();
-    token.span.begin = static_cast<std::uint32_t>(in.at - text);
-    token.span.end = token.span.begin + (in.at < in.end ? 1 : 0);
-    return token;
-}
-
-// A list whose entries are plain numbers is one token.
-template <class T, class R>
-void read_run(Parser& p, const Token& run, std::string_view what, std::vector<T>& list, R read) {
-    const std::string& text = p.in.sources.files[run.span.source].text;
-    NumberReader in{text.data() + run.span.begin, text.data() + run.span.end};
-    const double said = in.at_number() ? in.number() : 0;
-    if (!(said >= 1 && said <= 1 << 30))
-        fail(p, run, fmt::format("`{}` needs the count of its entries first, at least 1", what));
-    const auto count = static_cast<std::size_t>(said);
-    charge(p, run, count * sizeof(T));
-    charge_work(p, run, static_cast<std::int64_t>(count));
-    list.reserve(std::min(count, text.size() / 4)); // the count is only said so far
-    while (list.size() < count) {
-        if (in.at_end()) fail_count(p, token_of(p, run, in), what, count, list.size());
-        read(in, list);
-    }
-    if (!in.at_end()) fail_count(p, token_of(p, run, in), what, count, count + 1);
-}
-
-// `read` appends an entry of plain numbers, `item` one of expressions.
-template <class T, class R, class F>
-void parse_list(Parser& p, std::string_view what, std::vector<T>& list, R read, F item) {
-    const Token opener = peek(p);
-    open_block(p, what);
-    list.clear();
-    if (const Token run = peek_raw(p); run.kind == TokenKind::numbers) {
-        next_raw(p);
-        read_run(p, run, what, list, [&](NumberReader& in, auto& all) {
-            const Token at = token_of(p, run, in);
-            if (!read(in, all)) fail(p, at, fmt::format("this is no entry of `{}`", what));
-        });
-    } else {
-        const std::size_t count = parse_count(p);
-        charge(p, opener, count * sizeof(T));
-        list.reserve(std::min<std::size_t>(count, 1 << 16)); // the count is only said so far
-        while (list.size() < count) {
-            if (at(p, '}')) fail_count(p, peek(p), what, count, list.size());
-            item();
-            accept_comma(p);
-        }
-    }
-    if (!close_block(p)) fail_count(p, peek(p), what, list.size(), list.size() + 1);
-}
-
 bool fits_float(double v) { return std::abs(v) < 3e38; }
 
-bool read_point(NumberReader& in, std::vector<Vec3f>& list) {
+bool read_entry(NumberCursor& cursor, std::vector<Vec3f>& list) {
     double v[3];
-    std::size_t found = 0;
-    if (!in.vector(v, 3, found) || found < 3 || !fits_float(v[0]) || !fits_float(v[1]) || !fits_float(v[2]))
+    if (!read_vector(cursor, 3, v) || !fits_float(v[0]) || !fits_float(v[1]) || !fits_float(v[2]))
         return false;
     list.emplace_back(Vec3(v[0], v[1], v[2]));
     return true;
 }
-
-bool read_uv(NumberReader& in, std::vector<Vec2f>& list) {
-    double v[3];
-    std::size_t found = 0;
-    if (!in.vector(v, 3, found) || found < 2 || !fits_float(v[0]) || !fits_float(v[1])) return false;
+bool read_entry(NumberCursor& cursor, std::vector<Vec2f>& list) {
+    double v[2];
+    if (!read_vector(cursor, 2, v) || !fits_float(v[0]) || !fits_float(v[1])) return false;
     list.emplace_back(Vec2(v[0], v[1]));
     return true;
 }
@@ -302,11 +244,10 @@ bool to_triple(const double (&v)[3], Triple& t) {
     return true;
 }
 
-bool read_triple(NumberReader& in, std::vector<Triple>& list) {
+bool read_entry(NumberCursor& cursor, std::vector<Triple>& list) {
     double v[3];
-    std::size_t found = 0;
     Triple t;
-    if (!in.vector(v, 3, found) || found < 3 || !to_triple(v, t)) return false;
+    if (!read_vector(cursor, 3, v) || !to_triple(v, t)) return false;
     list.push_back(t);
     return true;
 }
@@ -320,15 +261,68 @@ bool take_face_textures(const double (&v)[3], std::size_t found, MeshData& data)
     return set_texture(data, t), true;
 }
 
-bool read_face(NumberReader& in, MeshData& data) {
-    if (!read_triple(in, data.triangles)) return false;
+bool read_face(NumberCursor& cursor, MeshData& data) {
+    if (!read_entry(cursor, data.triangles)) return false;
     double v[3];
     std::size_t found = 0;
-    while (in.at_number() && !in.at_end()) {
-        if (found == 3) return false;
-        v[found++] = in.number();
+    for (;;) {
+        skip_comma(cursor);
+        if (found == 3 || !read_number(cursor, v[found])) break;
+        ++found;
     }
     return found == 0 || take_face_textures(v, found, data);
+}
+
+// The whole list from its text: the count, then as many entries, and nothing else.
+template <class T, class R>
+bool read_number_list(Parser& p, const Token& opener, std::vector<T>& list, R read) {
+    const auto text = peek_number_list(p);
+    if (!text) return false;
+    NumberCursor cursor(*text);
+    double count = 0;
+    // An entry takes at least 5 bytes: no memory for a count that the text cannot hold.
+    if (!read_number(cursor, count) || count < 1 || count * 5 > static_cast<double>(text->size()))
+        return false;
+    charge(p, opener, static_cast<std::size_t>(count) * sizeof(T));
+    list.reserve(static_cast<std::size_t>(count));
+    while (list.size() < static_cast<std::size_t>(count)) {
+        skip_comma(cursor);
+        if (!read(cursor)) return false;
+    }
+    skip_comma(cursor);
+    if (!at_list_end(cursor)) return false;
+    take_number_list(p);
+    return true;
+}
+
+// `read` appends an entry from a list's text, `item` one from its tokens; `clear` starts anew.
+template <class T, class C, class R, class F>
+void parse_list(Parser& p, std::string_view what, std::vector<T>& list, C clear, R read, F item) {
+    const Token opener = peek(p);
+    open_block(p, what);
+    clear();
+    if (read_number_list(p, opener, list, read)) {
+        close_block(p);
+        return;
+    }
+    clear();
+    const std::size_t count = parse_count(p);
+    charge(p, opener, count * sizeof(T));
+    list.reserve(std::min<std::size_t>(count, 1 << 16)); // the count is only said so far
+    while (list.size() < count) {
+        if (at(p, '}'))
+            fail(p, peek(p), fmt::format("`{}` says {} entries, here are {}", what, count, list.size()));
+        item();
+        accept_comma(p);
+    }
+    if (!close_block(p)) fail(p, peek(p), fmt::format("`{}` says {} entries, here are more", what, count));
+}
+
+template <class T, class F>
+void parse_plain_list(Parser& p, std::string_view what, std::vector<T>& list, F item) {
+    parse_list(
+        p, what, list, [&] { list.clear(); }, [&](NumberCursor& cursor) { return read_entry(cursor, list); },
+        [&] { list.push_back(item()); });
 }
 
 Triple parse_triple(Parser& p) {
@@ -382,9 +376,10 @@ void parse_texture_list(Parser& p, TextureCollector& all) {
         charge(p, word, sizeof(Texture));
         accept_comma(p);
     }
-    if (list.size() < count || !at(p, '}'))
-        fail_count(p, peek(p), "texture_list", count, list.size() + !at(p, '}'));
-    close_block(p);
+    if (list.size() < count || !close_block(p))
+        fail(p, peek(p),
+             fmt::format("`texture_list` says {} entries, here are {}", count,
+                         list.size() < count ? "fewer" : "more"));
     all.textures.list = std::move(list);
 }
 
@@ -400,30 +395,28 @@ bool parse_mesh2_list(Parser& p, MeshData& data, TextureCollector& textures,
     const Token word = peek(p);
     switch (keyword_of(word)) {
     case "vertex_vectors"_kw:
-        next(p), parse_list(p, "vertex_vectors", data.positions, read_point,
-                            [&] { data.positions.emplace_back(parse_vector(p)); });
+        next(p),
+            parse_plain_list(p, "vertex_vectors", data.positions, [&] { return Vec3f(parse_vector(p)); });
         return true;
     case "normal_vectors"_kw:
-        next(p), parse_list(p, "normal_vectors", data.normals, read_point,
-                            [&] { data.normals.emplace_back(parse_vector(p)); });
+        next(p), parse_plain_list(p, "normal_vectors", data.normals, [&] { return Vec3f(parse_vector(p)); });
         return true;
     case "uv_vectors"_kw:
-        next(p), parse_list(p, "uv_vectors", data.uvs, read_uv, [&] { data.uvs.emplace_back(parse_uv(p)); });
+        next(p), parse_plain_list(p, "uv_vectors", data.uvs, [&] { return Vec2f(parse_uv(p)); });
         return true;
     case "face_indices"_kw:
-        data.texture_triangles.clear();
         next(p),
             parse_list(
                 p, "face_indices", data.triangles,
-                [&](NumberReader& in, auto&) { return read_face(in, data); }, [&] { parse_face(p, data); });
+                [&] { data.triangles.clear(), data.texture_triangles.clear(); },
+                [&](NumberCursor& cursor) { return read_face(cursor, data); }, [&] { parse_face(p, data); });
         return true;
     case "normal_indices"_kw:
-        next(p), parse_list(p, "normal_indices", data.normal_triangles, read_triple,
-                            [&] { data.normal_triangles.push_back(parse_triple(p)); });
+        next(p),
+            parse_plain_list(p, "normal_indices", data.normal_triangles, [&] { return parse_triple(p); });
         return true;
     case "uv_indices"_kw:
-        next(p), parse_list(p, "uv_indices", data.uv_triangles, read_triple,
-                            [&] { data.uv_triangles.push_back(parse_triple(p)); });
+        next(p), parse_plain_list(p, "uv_indices", data.uv_triangles, [&] { return parse_triple(p); });
         return true;
     case "texture_list"_kw:
         next(p), parse_texture_list(p, textures);
@@ -531,6 +524,10 @@ Shape parse_bicubic_patch(Parser& p) {
             break;
         case "accuracy"_kw:
             next(p), parse_float(p);
+            break;
+        case "uv_vectors"_kw:
+            next(p);
+            for (Vec2& uv : patch.corner_uv) uv = parse_uv(p), accept_comma(p);
             break;
         default:
             for (Vec3& point : patch.points) point = parse_item(p);

@@ -4,6 +4,7 @@
 
 #include "core/font.h"
 #include "parser/blocks.h"
+#include "parser/library.h"
 
 #include <optional>
 #include <stdexcept>
@@ -137,6 +138,14 @@ const char* internal_font(int number) {
     return names[number - 1];
 }
 
+// The name as it stands, or with the ending of a font file, which POV-Ray adds where it is missing.
+std::string find_font(Parser& p, const Token& at, const std::string& name) {
+    if (!file_exists(p, name))
+        for (const char* ending : {".ttf", ".ttc", ".otf"})
+            if (file_exists(p, name + ending)) return resolve_file(p, at, name + ending);
+    return resolve_file(p, at, name);
+}
+
 } // namespace
 
 Shape parse_text(Parser& p) {
@@ -150,17 +159,17 @@ Shape parse_text(Parser& p) {
         font = parse_string(p);
     }
     accept_comma(p);
-    const std::string path = resolve_file(p, at, font);
+    const std::string path = find_font(p, at, font);
     const Token said = peek(p);
     const std::string text = parse_string(p);
     accept_comma(p);
     const double thickness = parse_float(p);
     accept_comma(p);
-    Vec2 offset(0);
-    if (at_expression(p)) offset = parse_uv(p);
+    Vec3 offset(0);
+    if (at_expression(p)) offset = parse_vector(p);
     charge(p, said, text.size() * sizeof(PlacedGlyph));
     try {
-        return make_text(set_text(path, text, offset), thickness);
+        return make_text(set_text(path, text, Vec2(offset)), thickness);
     } catch (const std::invalid_argument& wrong) {
         fail(p, at, wrong.what());
     }

@@ -49,7 +49,7 @@ void open_block(Parser& p, std::string_view what) {
         fail(p, brace, fmt::format("expected `{{` to start {}, found {}", what, token_text(p, brace)));
     const auto depth = static_cast<std::size_t>(p.in.used.nesting) + p.in.blocks.size();
     if (depth >= static_cast<std::size_t>(p.in.options.budgets.nesting))
-        stop(p, brace, fmt::format("nested deeper than {} levels", p.in.options.budgets.nesting));
+        stop_at_limit(p, brace, &Budgets::nesting, fmt::format("nested deeper than {} levels", p.in.options.budgets.nesting));
     next(p);
     p.in.blocks.push_back({brace, std::string(what), p.in.brace_depth});
 }
@@ -184,6 +184,12 @@ void stop(Parser& p, const Token& at, std::string message, std::string help) {
     if (located.chain == 0 && !p.in.frames.empty()) located.chain = p.in.frames.back().chain;
     record(p, Severity::error, located, std::move(message), std::move(help));
     throw ParseStop{};
+}
+
+void stop_at_limit(Parser& p, const Token& at, std::int64_t Budgets::*budget, std::string message,
+                   std::string question) {
+    if (!question.empty()) question += "; ";
+    stop(p, at, std::move(message), question + limit_help(p.in.options.budgets, budget));
 }
 
 void error(Parser& p, const Token& at, std::string message, std::string help) {

@@ -2,31 +2,59 @@
 #include "parser/source.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace pnr {
 
+namespace {
+
+const std::vector<std::uint32_t>& lines_of(const SourceText& source) {
+    if (!source.line_starts.empty()) return source.line_starts;
+    source.line_starts.push_back(0);
+    const char* const begin = source.text.data();
+    const char* const end = begin + source.text.size();
+    const auto left = [&](const char* at) { return static_cast<std::size_t>(end - at); };
+    if (!source.text.empty() && std::memchr(begin, '\r', source.text.size()) == nullptr) {
+        for (const char* at = begin; (at = static_cast<const char*>(std::memchr(at, '\n', left(at))));)
+            source.line_starts.push_back(static_cast<std::uint32_t>(++at - begin));
+        return source.line_starts;
+    }
+    for (const char* at = begin; at < end; ++at) {
+        if (*at != '\n' && *at != '\r') continue;
+        if (*at == '\r' && at + 1 < end && at[1] == '\n') ++at; // one end of a line
+        source.line_starts.push_back(static_cast<std::uint32_t>(at + 1 - begin));
+    }
+    return source.line_starts;
+}
+
+} // namespace
+
 std::uint32_t Sources::add(std::string path, std::string text) {
-    SourceText source{std::move(path), std::move(text), {0}};
-    for (std::size_t i = 0; i < source.text.size(); ++i)
-        if (source.text[i] == '\n') source.line_starts.push_back(static_cast<std::uint32_t>(i + 1));
-    files.push_back(std::move(source));
+    files.push_back({std::move(path), std::move(text)});
     return static_cast<std::uint32_t>(files.size() - 1);
 }
 
 LineColumn Sources::locate(std::uint32_t source, std::uint32_t offset) const {
-    const auto& starts = files[source].line_starts;
+    const auto& starts = lines_of(files[source]);
     const auto next_line = std::upper_bound(starts.begin(), starts.end(), offset);
     const auto line = next_line - starts.begin();
     return {static_cast<int>(line), static_cast<int>(offset - *(next_line - 1) + 1)};
 }
 
+std::uint32_t Sources::offset(std::uint32_t source, LineColumn place) const {
+    const SourceText& file = files[source];
+    const auto& starts = lines_of(file);
+    if (place.line < 1 || static_cast<std::size_t>(place.line) > starts.size()) return 0;
+    const std::size_t begin = starts[static_cast<std::size_t>(place.line - 1)];
+    const std::size_t column = place.column > 1 ? static_cast<std::size_t>(place.column - 1) : 0;
+    return static_cast<std::uint32_t>(std::min(begin + column, file.text.size()));
+}
+
 std::string_view Sources::line_text(std::uint32_t source, int line) const {
     const SourceText& file = files[source];
-    const std::size_t begin = file.line_starts[static_cast<std::size_t>(line - 1)];
-    std::string_view text(file.text);
-    text = text.substr(begin, text.find('\n', begin) - begin);
-    if (!text.empty() && text.back() == '\r') text.remove_suffix(1);
-    return text;
+    const std::size_t begin = lines_of(file)[static_cast<std::size_t>(line - 1)];
+    const std::string_view text(file.text);
+    return text.substr(begin, text.find_first_of("\r\n", begin) - begin);
 }
 
 } // namespace pnr

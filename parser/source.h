@@ -19,7 +19,7 @@ struct Span {
 struct SourceText {
     std::string path; // as shown in diagnostics
     std::string text;
-    std::vector<std::uint32_t> line_starts;
+    mutable std::vector<std::uint32_t> line_starts{}; // found when a place in the text is first asked for
 };
 
 struct LineColumn {
@@ -32,6 +32,7 @@ struct Sources {
 
     std::uint32_t add(std::string path, std::string text);
     LineColumn locate(std::uint32_t source, std::uint32_t offset) const;
+    std::uint32_t offset(std::uint32_t source, LineColumn place) const; // 0 if there is no such line
     std::string_view line_text(std::uint32_t source, int line) const;
 };
 

@@ -16,12 +16,31 @@ enum class TokenKind : std::uint8_t {
     number,      // value
     string,      // text: index into the lexer's string table
     word,        // symbol: keyword or identifier
-    directive,   // `#name`; symbol is the name's keyword, value the token to jump to. Never leaves the
-                 // expander.
+    directive,   // `#name`; symbol is the name's keyword, value the token to jump to (lexer.h). Never
+                 // leaves the expander.
     punctuation, // symbol holds the character, or two of them (first | second << 8) for <= >= !=
-    numbers, // a long list of plain numbers (number_run.h): the text of the span. Only mesh2's parser meets it.
     invalid, // cannot be read; symbol: index of the message in the string table. Never leaves the expander.
+    numbers, // a long list of plain numbers and vectors, not cut into tokens yet (number_list.h). Never
+             // leaves the expander.
 };
+
+// A token as its text keeps it, in 16 bytes: a large scene has tens of millions.
+struct StoredToken {
+    struct Name {
+        Symbol symbol;
+        std::uint32_t jump; // of directives; see lexer.h
+    };
+    union {
+        double number; // TokenKind::number
+        Name name;     // all others
+    };
+    std::uint32_t begin = 0;      // first byte in the text
+    std::uint32_t kind : 4 = 0;   // TokenKind
+    std::uint32_t length : 28 = 0; // in bytes
+
+    StoredToken() : name{0, 0} {}
+};
+static_assert(sizeof(StoredToken) == 16);
 
 struct Token {
     TokenKind kind = TokenKind::end;

@@ -54,13 +54,15 @@ Process run_process(const std::vector<std::string>& words, const std::filesystem
     for (pid_t got = 0; got == 0 || (got < 0 && errno == EINTR);) {
         got = ::wait4(child, &status, WNOHANG, &usage);
         if (got != 0) continue;
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
         if (std::chrono::steady_clock::now() - started > std::chrono::seconds(10 * cpu_limit)) {
             result.timed_out = true;
             ::kill(child, SIGKILL);
         }
     }
     result.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+    result.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    result.peak_rss_mb = static_cast<double>(usage.ru_maxrss) / 1024;
     result.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     result.timed_out = result.timed_out || (WIFSIGNALED(status) && result.cpu_s >= cpu_limit);
     std::ifstream file(log, std::ios::binary);

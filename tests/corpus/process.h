@@ -11,7 +11,8 @@ namespace pnr {
 struct Process {
     int code = -1; // exit code; 128 + n if signal n ended it
     bool timed_out = false;
-    double cpu_s = 0;
+    double cpu_s = 0, wall_s = 0;
+    double peak_rss_mb = 0;
     std::string text; // its standard output and error
 };
 

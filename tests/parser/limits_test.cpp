@@ -146,12 +146,13 @@ void try_prefixes(const std::string& text, const std::string& name) {
     std::vector<std::string> strings;
     Sources sources;
     sources.add(name, text);
-    for (const Token& token : lex(sources.files[0], 0, words, strings)) {
-        const LoadResult result = load_scene_text(text.substr(0, token.span.end), name, {});
+    for (const StoredToken& token : lex(sources.files[0], words, strings, {})) {
+        const std::size_t end = token.begin + token.length;
+        const LoadResult result = load_scene_text(text.substr(0, end), name, {});
         EXPECT_EQ(result.scene.has_value(),
                   std::none_of(result.diagnostics.begin(), result.diagnostics.end(),
                                [](const Diagnostic& d) { return d.severity == Severity::error; }))
-            << name << " up to byte " << token.span.end;
+            << name << " up to byte " << end;
     }
 }
 
