@@ -87,7 +87,7 @@ constexpr std::array<InternalFunction, 79> table{{
     {"f_witch_of_agnesi", 5, algebraic_witch_of_agnesi},
     {"f_witch_of_agnesi_2d", 9, curve_witch_of_agnesi},
     {"f_noise3d", 3, nullptr}, // f_noise_generator with the scene's own: the parser knows it
-    {"", 0, nullptr}, // POV-Ray's own, for patterns
+    {"", 0, nullptr},          // POV-Ray's own, for patterns
     {"f_noise_generator", 4, noise_noise_generator},
 }};
 

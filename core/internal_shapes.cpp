@@ -15,7 +15,9 @@ constexpr double turn = 2 * std::numbers::pi;
 
 double radius2(const double* a) { return sqr(a[0]) + sqr(a[1]) + sqr(a[2]); }
 
-double polynomial(const double* c, double y) { return c[0] + y * (c[1] + y * (c[2] + y * (c[3] + y * c[4]))); }
+double polynomial(const double* c, double y) {
+    return c[0] + y * (c[1] + y * (c[2] + y * (c[3] + y * c[4])));
+}
 
 // Of three ellipsoids about the axes, with so much of the squares across them.
 std::array<double, 3> ellipsoid_densities(const double* a, double e, double strength) {
@@ -24,8 +26,8 @@ std::array<double, 3> ellipsoid_densities(const double* a, double e, double stre
             std::exp(-strength * (z2 + e * (x2 + y2)))};
 }
 
-// Where the point lies in its cell of a honeycomb whose sides are 1 and whose neighbours lie sqrt(3) apart along x: how
-// far towards the nearest neighbour, and how far beside that line.
+// Where the point lies in its cell of a honeycomb whose sides are 1 and whose neighbours lie sqrt(3) apart
+// along x: how far towards the nearest neighbour, and how far beside that line.
 std::array<double, 2> honeycomb(double x, double y) {
     const double across = std::numbers::sqrt3, up = 3;
     double px = std::remainder(x, across), py = std::remainder(y, up);
@@ -63,9 +65,7 @@ double shape_ellipsoid(const double* a) {
     return std::sqrt(sqr(a[0] * a[3]) + sqr(a[1] * a[4]) + sqr(a[2] * a[5]));
 }
 
-double shape_flange_cover(const double* a) {
-    return a[6] - a[5] * total_density(a);
-}
+double shape_flange_cover(const double* a) { return a[6] - a[5] * total_density(a); }
 
 double shape_spikes(const double* a) {
     return a[5] * (total_density(a) - a[7] * std::exp(-a[6] * radius2(a)));
@@ -129,9 +129,7 @@ double shape_polytubes(const double* a) {
 }
 
 double shape_rounded_box(const double* a) {
-    const auto beyond = [&](int axis) {
-        return std::max(std::abs(a[axis]) - (a[4 + axis] - a[3]), 0.0);
-    };
+    const auto beyond = [&](int axis) { return std::max(std::abs(a[axis]) - (a[4 + axis] - a[3]), 0.0); };
     return std::sqrt(sqr(beyond(0)) + sqr(beyond(1)) + sqr(beyond(2))) - a[3] - 1e-6;
 }
 

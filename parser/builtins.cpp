@@ -481,8 +481,8 @@ double other_function(Parser& p, const Token& name) {
 bool is_number_builtin(Keyword word) {
     VectorValue ignored;
     return total_function(word) || is_partial_function(word) || is_binary_function(word) ||
-           is_constant(word) || is_vector_function(word) || is_other_function(word) || is_object_function(word) ||
-           unit_vector(word, ignored);
+           is_constant(word) || is_vector_function(word) || is_other_function(word) ||
+           is_object_function(word) || unit_vector(word, ignored);
 }
 
 VectorValue call_number_builtin(Parser& p, const Token& name) {

@@ -25,13 +25,15 @@ void parse_internal(Parser& p, Function& function) {
     const double number = parse_float(p);
     expect(p, ')', "to close `internal(`");
     const auto all = internal_functions();
-    const bool exists = number >= 0 && number < static_cast<double>(all.size()) && number == std::trunc(number);
+    const bool exists =
+        number >= 0 && number < static_cast<double>(all.size()) && number == std::trunc(number);
     std::size_t index = exists ? static_cast<std::size_t>(number) : 0;
     if (!exists || all[index].name.empty())
         fail(p, at_number, fmt::format("there is no internal function {}", number));
     function.parameters = all[index].parameters;
     for (int i = 0; i < function.parameters; ++i)
-        function.code.push_back({.kind = Instruction::Kind::argument, .index = static_cast<std::uint32_t>(i)});
+        function.code.push_back(
+            {.kind = Instruction::Kind::argument, .index = static_cast<std::uint32_t>(i)});
     if (index == noise3d) { // the noise that counts in the scene
         function.code.push_back({.value = scene_noise_generator});
         index = noise_generator;
