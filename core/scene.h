@@ -134,6 +134,7 @@ struct Scene {
     std::vector<LightSource> lights;
     Color background{0};
     Color ambient_light{1};          // global_settings
+    int noise_generator = 2, number_of_waves = 10; // of patterns that say none
     bool radiosity = false;          // a `radiosity {}` block: indirect light is wanted
     bool povray = false;             // a .pov file
     // What a value v of the finished picture means: linear light v^assumed_gamma, or, if 0, v through the sRGB curve. Applied

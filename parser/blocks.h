@@ -67,6 +67,11 @@ using ListReader = std::function<void(const Pattern&)>;
 bool parse_pattern(Parser& p, Pattern& pattern, const ListReader& read_list);
 // A word that shapes the pattern: turbulence, warp, waves, frequency, words of single patterns. Likewise.
 bool parse_pattern_modifier(Parser& p, Pattern& pattern);
+// The block behind `pattern`, in functions and images.
+Pattern parse_pattern_block(Parser& p);
+// With what the scene says at this place (noise, pictures) filled in: what is evaluated while the scene is read.
+Pattern prepared(Parser& p, Pattern pattern);
+Pigment prepared(Parser& p, Pigment pigment);
 bool parse_turbulence_word(Parser& p, Turbulence& turbulence); // octaves, omega, lambda
 void parse_warp(Parser& p, Pattern& pattern);                  // the block behind `warp`
 // The block of a map behind its word: a declared map, or `[position item] ...`, where `read` reads an item up to the

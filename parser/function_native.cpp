@@ -15,7 +15,6 @@ namespace pnr {
 namespace {
 
 constexpr std::size_t noise3d = 76, noise_generator = 78; // internal functions by number
-constexpr int scene_noise_generator = 2;
 
 // `internal(N)`: the function of POV-Ray's number N.
 void parse_internal(Parser& p, Function& function) {
@@ -35,7 +34,7 @@ void parse_internal(Parser& p, Function& function) {
         function.code.push_back(
             {.kind = Instruction::Kind::argument, .index = static_cast<std::uint32_t>(i)});
     if (index == noise3d) { // the noise that counts in the scene
-        function.code.push_back({.value = scene_noise_generator});
+        function.code.push_back({.value = static_cast<double>(p.scene.noise_generator)});
         index = noise_generator;
     }
     if (!all[index].evaluate) function.unsupported = fmt::format("{}", all[index].name);
@@ -57,13 +56,24 @@ void parse_transform_function(Parser& p, Function& function) {
     };
 }
 
+// `pattern { ... }`: the value at the point.
+void parse_pattern_function(Parser& p, Function& function) {
+    next(p);
+    function.parameters = 3;
+    function.cost = 50;
+    auto pattern = std::make_shared<const Pattern>(prepared(p, parse_pattern_block(p)));
+    function.native = [pattern = std::move(pattern)](const double* a, double* results) {
+        results[0] = eval_pattern(*pattern, {Vec3(a[0], a[1], a[2]), Vec2(a[0], a[1])});
+    };
+}
+
 // `pigment { ... }`: the colour at the point.
 void parse_pigment_function(Parser& p, Function& function) {
     next(p);
     function.parameters = 3;
     function.results = 5;
     function.cost = 50;
-    auto pigment = std::make_shared<const Pigment>(parse_pigment(p, Pigment{}));
+    auto pigment = std::make_shared<const Pigment>(prepared(p, parse_pigment(p, Pigment{})));
     function.native = [pigment = std::move(pigment)](const double* a, double* results) {
         const ColorFT color = eval_pigment(*pigment, {Vec3(a[0], a[1], a[2]), Vec2(a[0], a[1])});
         for (int i = 0; i < 3; ++i) results[i] = color.rgb[i];
@@ -84,13 +94,6 @@ void parse_spline_function(Parser& p, Function& function) {
     };
 }
 
-// What stands in place of an expression, up to the function's `}`.
-void skip_body(Parser& p, Function& function) {
-    function.unsupported = fmt::format("{} functions", token_text(p, next(p), false));
-    const std::int64_t depth = p.in.brace_depth;
-    while (!at_end(p) && !(p.in.brace_depth == depth && at(p, '}'))) next(p);
-}
-
 } // namespace
 
 bool parse_native(Parser& p, Function& function) {
@@ -108,7 +111,7 @@ bool parse_native(Parser& p, Function& function) {
         parse_spline_function(p, function);
         return true;
     case "pattern"_kw:
-        skip_body(p, function);
+        parse_pattern_function(p, function);
         return true;
     default:
         return false;

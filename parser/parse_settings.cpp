@@ -117,8 +117,6 @@ bool skip_setting(Parser& p) {
         return true;
     case "max_intersections"_kw:
     case "mm_per_unit"_kw:
-    case "noise_generator"_kw:
-    case "number_of_waves"_kw:
         next(p), parse_float(p);
         return true;
     case "subsurface"_kw:
@@ -145,6 +143,12 @@ void parse_setting(Parser& p) {
         return;
     case "ambient_light"_kw:
         next(p), p.scene.ambient_light = parse_color(p).rgb;
+        return;
+    case "noise_generator"_kw:
+        next(p), p.scene.noise_generator = parse_int(p, 1, 3, "`noise_generator`");
+        return;
+    case "number_of_waves"_kw:
+        next(p), p.scene.number_of_waves = parse_int(p, 1, 64, "`number_of_waves`");
         return;
     case "photons"_kw:
         next(p), parse_photons(p);
