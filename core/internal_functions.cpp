@@ -34,7 +34,7 @@ constexpr std::array<InternalFunction, 79> table{{
     {"f_folium_surface_2d", 9, curve_folium},
     {"f_glob", 4, algebraic_glob},
     {"f_heart", 4, algebraic_heart},
-    {"f_helical_torus", 13, nullptr},
+    {"f_helical_torus", 13, shape_helical_torus},
     {"f_helix1", 10, curve_helix1},
     {"f_helix2", 10, curve_helix2},
     {"f_hex_x", 4, shape_hex_x},

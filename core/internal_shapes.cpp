@@ -105,6 +105,19 @@ double shape_quantum(const double* a) {
     return 1.2 - 1.6 * sqr(lobes) * std::exp(-4 * shape_r(a) / 3);
 }
 
+// A tube wound round a torus: a[3] major radius, a[4] windings, a[5] how far each goes on round the small
+// circle, a[6] thickness, a[7] threshold, a[8] radius of the small circle, a[9] how fast the tube ends along
+// it; grooves in the tube: a[10] across, of steepness a[11], and a[12] along.
+double shape_helical_torus(const double* a) {
+    const double r = std::hypot(a[0], a[2]), out = r - a[3], far = std::hypot(out, a[1]);
+    const double along = r == 0 ? 0 : std::atan2(a[0], a[2]);
+    const double round = far == 0 ? 0 : std::atan2(out, a[1]);
+    const double off = std::remainder(a[4] * along + a[5] * round - std::numbers::pi, turn), up = far - a[8];
+    const double distance = std::min(std::sqrt(up * up + a[9] * off * off), far + a[8]);
+    const double groove = std::cos(a[12] * along + a[10] * std::atan2(a[11] * off, up));
+    return std::min(distance - a[7] - a[6] * groove, r + a[3] - a[8]);
+}
+
 double shape_ph(const double* a) {
     const double ring = std::hypot(a[0], a[2]);
     return ring == 0 && a[1] == 0 ? 0 : std::atan2(ring, a[1]);

@@ -108,6 +108,28 @@ Pr(f_dents(0.1, 0.2, 0.3)) Pr(f_torus(1, 2, 3, 1, 0.3)) Pr(f_helix1(1, 2, 3, 1, 
 Five(eval_pigment(pigment { gradient x color_map { [0 rgb 0] [1 rgb <1, 0.5, 0.2>] } }, <0.3, 0, 0>))
 )";
 
+const std::string shapes = R"(#include "shapes.inc"
+#macro Ask(O) #declare Thing = O
+    Vec(min_extent(Thing)) Vec(max_extent(Thing))
+    #for (I, 0, 4)
+        #local N = <0, 0, 0>;
+        #local H = trace(Thing, <5, 4, -6 + I>, <-5 + 0.1 * I, -4 + 0.3 * I, 6 - I>, N);
+        #if (vlength(N) > 0) Vec(H) Vec(N) #else #debug "- " #end Pr(inside(Thing, <0.1 * I, 0.2 * I, 0.1>))
+    #end
+#end
+Ask(Round_Box(<-1, -2, -1>, <1, 2, 3>, 0.3, no)) Ask(Round_Box_Merge(<1, 2, 3>, <-1, -2, -1>, 0.5)) Ask(Wire_Box_Union(W, -W, 0.2))
+Ask(Round_Cylinder(<0, -1, 0>, <1, 1, 0>, 1, 0.2, no)) Ask(Round_Cylinder_Merge(-z, 2 * z, 0.5, 0.6)) Ask(Spheroid(x, W))
+Ask(Round_Cone(-y, 1, y, 0.5, 0.1, no)) Ask(Round_Cone_Union(-y, 0.7, <0, 2, 0>, 1.5, 0.2)) Ask(Round_Cone2(-y, 1, y, 0.5, no))
+Ask(Round_Cone3(-y, 1, y, 0.5, no)) Ask(Connect_Spheres(-x, 1, 2 * x, 0.5)) Ask(Wedge(70)) Ask(Wedge(180)) Ask(Wedge(250))
+Ask(Center_Object(box { 0, W }, x + z)) Ask(Align_Object(box { 0, W }, x, <5, 5, 5>))
+#declare P = <0, 0, 0>; #declare N = <0, 0, 0>; Pr(IsectN(-5 * z, z, sphere { 0, 1 }, P, N)) Vec(P) Vec(N)
+Pr(Isect(-5 * z, y, sphere { 0, 1 }, P)) #declare Low = 0; #declare High = 0; Extents(box { 0, W }, Low, High) Vec(Low + High)
+#declare Waves = function { 0.1 * sin(x * 5) * cos(z * 3) + 0.05 * y }
+Ask(HF_Square(Waves, no, no, 9, yes, "", <-2, 0, -2>, <2, 1, 2>)) Ask(HF_Sphere(Waves, yes, yes, <12, 9>, yes, "", y, 1, 0.5))
+Ask(HF_Cylinder(Waves, no, no, 10, no, "", -y, y, 1, 0.3)) Ask(HF_Torus(Waves, yes, no, <14, 9>, yes, "", 1.5, 0.4, 0.3))
+Ask(Sphere) Ask(Cube) Ask(Disk_Y) Ask(Cone_Z)
+)";
+
 TEST(Include, OursDeclareAllThatPovRaysDeclare) {
     const auto folders = povray_folders();
     if (folders.empty()) GTEST_SKIP() << "skipped: no POV-Ray includes";
@@ -130,7 +152,7 @@ TEST(Include, OursPrintWhatPovRaysPrint) {
     if (folders.empty()) GTEST_SKIP() << "skipped: no POV-Ray includes";
     LoadOptions theirs;
     theirs.library = {folders.front()};
-    for (const std::string& text : {math, transforms, random, arrays, strings, functions}) {
+    for (const std::string& text : {math, transforms, random, arrays, strings, functions, shapes}) {
         const std::string printed = run(printers + text);
         EXPECT_GT(printed.size(), 100u) << text;
         std::string expected = run(printers + text, theirs);
