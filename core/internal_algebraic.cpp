@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Surfaces that are zeros of a polynomial. The polynomials are those of POV-Ray's functions, found by fitting values
-// that it prints; many are named after the curves and surfaces in [Lawrence 1972].
+// Surfaces that are zeros of a polynomial. The polynomials are those of POV-Ray's functions, found by fitting
+// values that it prints; many are named after the curves and surfaces in [Lawrence 1972].
 #include "core/internal_functions_impl.h"
 
 #include <algorithm>
@@ -12,7 +12,8 @@ namespace {
 // Far from the surface POV-Ray lets the values end at 10, so that gradients stay small.
 double limited(double value) { return std::clamp(value, -10.0, 10.0); }
 
-// A torus of which `height` bends the third square: +z^2 gives the round one. All are squares, but the height.
+// A torus of which `height` bends the third square: +z^2 gives the round one. All are squares, but the
+// height.
 double bent_torus(double x2, double y2, double height, double factor, double major, double minor) {
     return -sqr(x2 + y2 + height) + factor * (major + minor) * (x2 + height) + factor * (minor - major) * y2 -
            sqr(major - minor);
@@ -36,12 +37,11 @@ double algebraic_boy_surface(const double* a) {
     const double x = a[0], y = a[1], z = a[2];
     const double x2 = x * x, y2 = y * y, z2 = z * z, ring = x2 + y2;
     const double w = 1 - z;
-    const double value = 64 * cube(w) * cube(z) - 48 * sqr(w) * z2 * (3 * ring + 2 * z2) +
-                         12 * w * z *
-                             (27 * ring * ring - 24 * z2 * ring + 36 * root2 * y * z * (y2 - 3 * x2) +
-                              4 * z2 * z2) +
-                         (9 * ring - 2 * z2) * (-81 * ring * ring - 72 * z2 * ring +
-                                                108 * root2 * x * z * (x2 - 3 * y2) + 4 * z2 * z2);
+    const double value =
+        64 * cube(w) * cube(z) - 48 * sqr(w) * z2 * (3 * ring + 2 * z2) +
+        12 * w * z * (27 * ring * ring - 24 * z2 * ring + 36 * root2 * y * z * (y2 - 3 * x2) + 4 * z2 * z2) +
+        (9 * ring - 2 * z2) *
+            (-81 * ring * ring - 72 * z2 * ring + 108 * root2 * x * z * (x2 - 3 * y2) + 4 * z2 * z2);
     return limited(a[3] * a[4] * value);
 }
 
@@ -69,8 +69,8 @@ double algebraic_dupin_cyclid(const double* a) {
     // |p|^2 / |q|^2; where it meets the radii POV-Ray counts `up` the other way round
     const double even = sqr(inversion2) - 2 * inversion2 * along * x + (sqr(along) + sqr(up)) * far2;
     const double odd = 2 * inversion2 * up * y, radii = (major2 - minor2) * far2;
-    return limited(-a[3] * (sqr(even - odd) + 2 * radii * (even + odd) + sqr(radii) -
-                            4 * major2 * (px * px + pz * pz)));
+    return limited(
+        -a[3] * (sqr(even - odd) + 2 * radii * (even + odd) + sqr(radii) - 4 * major2 * (px * px + pz * pz)));
 }
 
 // POV-Ray's own variant of Enneper's surface: near z = 0 it stays as it is at 0.2.
@@ -111,8 +111,8 @@ double algebraic_kampyle_of_eudoxus(const double* a) {
 
 double algebraic_klein_bottle(const double* a) {
     const double x = a[0], y = a[1], z = a[2], r2 = x * x + y * y + z * z;
-    return limited(-a[3] * ((r2 + 2 * y - 1) * (sqr(r2 - 2 * y - 1) - 8 * z * z) +
-                            16 * x * z * (r2 - 2 * y - 1)));
+    return limited(-a[3] *
+                   ((r2 + 2 * y - 1) * (sqr(r2 - 2 * y - 1) - 8 * z * z) + 16 * x * z * (r2 - 2 * y - 1)));
 }
 
 double algebraic_kummer_surface_v1(const double* a) {

@@ -22,8 +22,8 @@ PlanePoint turned(PlanePoint p, double degrees) {
     return {p.x * c - p.y * s, p.x * s + p.y * c};
 }
 
-// Where the curve is asked. `turn` are the three arguments that most of these functions end with: switch, offset,
-// angle. Switched on, the curve is moved out from the y axis, turned in its plane and then about y.
+// Where the curve is asked. `turn` are the three arguments that most of these functions end with: switch,
+// offset, angle. Switched on, the curve is moved out from the y axis, turned in its plane and then about y.
 PlanePoint plane_point(const double* a, const double* turn) {
     if (!(turn[0] > 0)) return {a[0], a[1]};
     return turned({std::hypot(a[0], a[2]) - turn[1], a[1]}, turn[2]);
@@ -32,7 +32,8 @@ PlanePoint plane_point(const double* a, const double* turn) {
 // The limit is the function's own; POV-Ray takes it as it is, negative ones too.
 double within(double value, double limit) { return std::min(std::max(value, -limit), limit); }
 
-// The distance from the middle of a cross section: 0 square, 1 round, 2 diamond, between and beyond them superellipses.
+// The distance from the middle of a cross section: 0 square, 1 round, 2 diamond, between and beyond them
+// superellipses.
 double cross_section(PlanePoint p, double type, double angle) {
     if (type == 1) return std::hypot(p.x, p.y);
     p = turned(p, angle);

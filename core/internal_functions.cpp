@@ -34,7 +34,7 @@ constexpr std::array<InternalFunction, 79> table{{
     {"f_folium_surface_2d", 9, curve_folium},
     {"f_glob", 4, algebraic_glob},
     {"f_heart", 4, algebraic_heart},
-    {"f_helical_torus", 13, nullptr},
+    {"f_helical_torus", 13, shape_helical_torus},
     {"f_helix1", 10, curve_helix1},
     {"f_helix2", 10, curve_helix2},
     {"f_hex_x", 4, shape_hex_x},
@@ -87,7 +87,7 @@ constexpr std::array<InternalFunction, 79> table{{
     {"f_witch_of_agnesi", 5, algebraic_witch_of_agnesi},
     {"f_witch_of_agnesi_2d", 9, curve_witch_of_agnesi},
     {"f_noise3d", 3, nullptr}, // f_noise_generator with the scene's own: the parser knows it
-    {"", 0, nullptr}, // POV-Ray's own, for patterns
+    {"", 0, nullptr},          // POV-Ray's own, for patterns
     {"f_noise_generator", 4, noise_noise_generator},
 }};
 

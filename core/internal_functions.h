@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The functions that POV-Ray builds in, `function { internal(N) }`, which functions.inc names f_sphere, f_helix1 ...
+// The functions that POV-Ray builds in, `function { internal(N) }`, which functions.inc names f_sphere,
+// f_helix1 ...
 #pragma once
 
 #include <span>
@@ -11,8 +12,8 @@ namespace pnr {
 using InternalEvaluate = double (*)(const double* arguments);
 
 struct InternalFunction {
-    std::string_view name;               // as functions.inc has it; empty: there is no function of this number
-    int parameters = 3;                  // x, y, z included
+    std::string_view name; // as functions.inc has it; empty: there is no function of this number
+    int parameters = 3;    // x, y, z included
     InternalEvaluate evaluate = nullptr; // null: see name
 };
 

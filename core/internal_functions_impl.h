@@ -10,7 +10,8 @@ namespace pnr {
 inline double sqr(double v) { return v * v; }
 inline double cube(double v) { return v * v * v; }
 
-// ---- internal_algebraic.cpp: polynomials in x, y, z; of most the first argument is a factor, the "field strength"
+// ---- internal_algebraic.cpp: polynomials in x, y, z; of most the first argument is a factor, the "field
+// strength"
 
 double algebraic_bicorn(const double* a);
 double algebraic_bifolia(const double* a);

@@ -28,7 +28,8 @@ double ridged(double value, double ridge) { return std::abs(value - ridge) / std
 
 double noise_noise_generator(const double* a) { return noise_at(point_of(a), a[3]); }
 
-// a[3] H, a[4] lacunarity, a[5] octaves, a[6] offset, a[7] how often a sum so far multiplies what is added, a[8] generator.
+// a[3] H, a[4] lacunarity, a[5] octaves, a[6] offset, a[7] how often a sum so far multiplies what is added,
+// a[8] generator.
 double noise_hetero_mf(const double* a) {
     const double lacunarity = a[4], octaves = std::min(a[5], most_octaves), offset = a[6];
     const double power = std::floor(std::clamp(a[7], 0.0, 100.0));

@@ -15,7 +15,9 @@ constexpr double turn = 2 * std::numbers::pi;
 
 double radius2(const double* a) { return sqr(a[0]) + sqr(a[1]) + sqr(a[2]); }
 
-double polynomial(const double* c, double y) { return c[0] + y * (c[1] + y * (c[2] + y * (c[3] + y * c[4]))); }
+double polynomial(const double* c, double y) {
+    return c[0] + y * (c[1] + y * (c[2] + y * (c[3] + y * c[4])));
+}
 
 // Of three ellipsoids about the axes, with so much of the squares across them.
 std::array<double, 3> ellipsoid_densities(const double* a, double e, double strength) {
@@ -24,8 +26,8 @@ std::array<double, 3> ellipsoid_densities(const double* a, double e, double stre
             std::exp(-strength * (z2 + e * (x2 + y2)))};
 }
 
-// Where the point lies in its cell of a honeycomb whose sides are 1 and whose neighbours lie sqrt(3) apart along x: how
-// far towards the nearest neighbour, and how far beside that line.
+// Where the point lies in its cell of a honeycomb whose sides are 1 and whose neighbours lie sqrt(3) apart
+// along x: how far towards the nearest neighbour, and how far beside that line.
 std::array<double, 2> honeycomb(double x, double y) {
     const double across = std::numbers::sqrt3, up = 3;
     double px = std::remainder(x, across), py = std::remainder(y, up);
@@ -63,9 +65,7 @@ double shape_ellipsoid(const double* a) {
     return std::sqrt(sqr(a[0] * a[3]) + sqr(a[1] * a[4]) + sqr(a[2] * a[5]));
 }
 
-double shape_flange_cover(const double* a) {
-    return a[6] - a[5] * total_density(a);
-}
+double shape_flange_cover(const double* a) { return a[6] - a[5] * total_density(a); }
 
 double shape_spikes(const double* a) {
     return a[5] * (total_density(a) - a[7] * std::exp(-a[6] * radius2(a)));
@@ -105,6 +105,19 @@ double shape_quantum(const double* a) {
     return 1.2 - 1.6 * sqr(lobes) * std::exp(-4 * shape_r(a) / 3);
 }
 
+// A tube wound round a torus: a[3] major radius, a[4] windings, a[5] how far each goes on round the small
+// circle, a[6] thickness, a[7] threshold, a[8] radius of the small circle, a[9] how fast the tube ends along
+// it; grooves in the tube: a[10] across, of steepness a[11], and a[12] along.
+double shape_helical_torus(const double* a) {
+    const double r = std::hypot(a[0], a[2]), out = r - a[3], far = std::hypot(out, a[1]);
+    const double along = r == 0 ? 0 : std::atan2(a[0], a[2]);
+    const double round = far == 0 ? 0 : std::atan2(out, a[1]);
+    const double off = std::remainder(a[4] * along + a[5] * round - std::numbers::pi, turn), up = far - a[8];
+    const double distance = std::min(std::sqrt(up * up + a[9] * off * off), far + a[8]);
+    const double groove = std::cos(a[12] * along + a[10] * std::atan2(a[11] * off, up));
+    return std::min(distance - a[7] - a[6] * groove, r + a[3] - a[8]);
+}
+
 double shape_ph(const double* a) {
     const double ring = std::hypot(a[0], a[2]);
     return ring == 0 && a[1] == 0 ? 0 : std::atan2(ring, a[1]);
@@ -129,9 +142,7 @@ double shape_polytubes(const double* a) {
 }
 
 double shape_rounded_box(const double* a) {
-    const auto beyond = [&](int axis) {
-        return std::max(std::abs(a[axis]) - (a[4 + axis] - a[3]), 0.0);
-    };
+    const auto beyond = [&](int axis) { return std::max(std::abs(a[axis]) - (a[4 + axis] - a[3]), 0.0); };
     return std::sqrt(sqr(beyond(0)) + sqr(beyond(1)) + sqr(beyond(2))) - a[3] - 1e-6;
 }
 

@@ -42,7 +42,8 @@ std::string vstr_function(Parser& p, const Token& name) {
     const double count = number_argument(p);
     if (count < 2 || count > 5) fail(p, first, fmt::format("vstr writes 2 to 5 components, not {}", count));
     comma_argument(p, name);
-    VectorValue value = parse_operand_expression(p, Angles::compare); // a number is a vector with zeros behind it
+    VectorValue value =
+        parse_operand_expression(p, Angles::compare); // a number is a vector with zeros behind it
     comma_argument(p, name);
     const std::string separator = parse_string(p);
     comma_argument(p, name);
@@ -78,12 +79,15 @@ std::size_t character_count(std::string_view text) { return character_places(tex
 
 // The code of the character at text[i], which is its first byte.
 int character_code(std::string_view text, std::size_t i) {
-    const auto byte = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0; };
+    const auto byte = [&](std::size_t k) {
+        return k < text.size() ? static_cast<unsigned char>(text[k]) : 0;
+    };
     const int first = byte(i);
     if (first < 0xC0) return first;
     if (first < 0xE0) return (first & 0x1F) << 6 | (byte(i + 1) & 0x3F);
     if (first < 0xF0) return (first & 0x0F) << 12 | (byte(i + 1) & 0x3F) << 6 | (byte(i + 2) & 0x3F);
-    return (first & 0x07) << 18 | (byte(i + 1) & 0x3F) << 12 | (byte(i + 2) & 0x3F) << 6 | (byte(i + 3) & 0x3F);
+    return (first & 0x07) << 18 | (byte(i + 1) & 0x3F) << 12 | (byte(i + 2) & 0x3F) << 6 |
+           (byte(i + 3) & 0x3F);
 }
 
 // substr(text, first, count): counted from 1.
@@ -98,8 +102,10 @@ std::string substr_function(Parser& p, const Token& name) {
     const std::size_t size = places.size() - 1;
     if (first < 1 || count < 0 || first - 1 + count > static_cast<double>(size))
         fail(p, at_first,
-             fmt::format("substr: characters {} to {} of a string that has {}", first, first + count - 1, size));
-    const std::size_t begin = static_cast<std::size_t>(first) - 1, end = begin + static_cast<std::size_t>(count);
+             fmt::format("substr: characters {} to {} of a string that has {}", first, first + count - 1,
+                         size));
+    const std::size_t begin = static_cast<std::size_t>(first) - 1,
+                      end = begin + static_cast<std::size_t>(count);
     return text.substr(places[begin], places[end] - places[begin]);
 }
 

@@ -139,9 +139,9 @@ void macro_directive(Parser& p, const Token& directive) {
     expect_raw(p, '(', directive);
     while (!is(peek_raw(p), ')')) {
         macro->parameters.push_back(take_new_name(p, directive).symbol);
-        if (is(peek_raw(p), ','))
+        if (is(peek_raw(p), ',')) // POV-Ray lets it be missing
             next_raw(p);
-        else if (!is(peek_raw(p), ')'))
+        else if (!is(peek_raw(p), ')') && peek_raw(p).kind != TokenKind::word)
             fail(p, peek_raw(p),
                  fmt::format("expected `,` or `)` in the macro's parameters, found {}",
                              token_text(p, peek_raw(p))));

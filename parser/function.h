@@ -48,8 +48,8 @@ struct Instruction {
         call,     // of calls[index]: its arguments are on top; a vector's component number `component`
         internal, // of internal_functions()[index]: its arguments are on top
         quotient, // div(a, b)
-        sum,      // of calls[index], whose last argument runs from the one on top but one to the one on top; its
-        product,  // other arguments are this function's own
+        sum, // of calls[index], whose last argument runs from the one on top but one to the one on top; its
+        product, // other arguments are this function's own
     };
     static constexpr std::uint8_t gray_component = 5; // the brightness of a colour
     Kind kind = Kind::constant;
@@ -84,8 +84,8 @@ std::shared_ptr<const Function> parse_function(Parser& p);
 // The same behind its word (`word`), and whatever stands between.
 std::shared_ptr<const Function> parse_function_body(Parser& p, const Token& word);
 
-// function_native.cpp. Is the function's body no expression but `internal(N)`, `transform { ... }`, `spline { ... }`,
-// `pigment { ... }` or `pattern { ... }`? If so it is read into `function`.
+// function_native.cpp. Is the function's body no expression but `internal(N)`, `transform { ... }`, `spline {
+// ... }`, `pigment { ... }` or `pattern { ... }`? If so it is read into `function`.
 bool parse_native(Parser& p, Function& function);
 
 // Behind the function's name: `(a, b)`, evaluated: a number or a vector. Errors at `name`.

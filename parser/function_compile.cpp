@@ -17,8 +17,9 @@ using Kind = Instruction::Kind;
 struct Compiler {
     Parser& p;
     Function& function;
-    std::vector<std::pair<Symbol, int>> names; // and the numbers of the arguments that they mean; the last counts
-    int depth = 0;                             // numbers on the stack here
+    std::vector<std::pair<Symbol, int>>
+        names;     // and the numbers of the arguments that they mean; the last counts
+    int depth = 0; // numbers on the stack here
 };
 
 void emit(Compiler& c, Instruction step, int change) {
@@ -31,8 +32,8 @@ void emit(Compiler& c, Instruction step, int change) {
 void emit(Compiler& c, Kind kind, int change) { emit(c, Instruction{.kind = kind}, change); }
 
 int argument_number(const Compiler& c, Symbol symbol) {
-    const auto found =
-        std::find_if(c.names.rbegin(), c.names.rend(), [&](const auto& name) { return name.first == symbol; });
+    const auto found = std::find_if(c.names.rbegin(), c.names.rend(),
+                                    [&](const auto& name) { return name.first == symbol; });
     return found == c.names.rend() ? -1 : found->second;
 }
 

@@ -15,7 +15,6 @@ namespace pnr {
 namespace {
 
 constexpr std::size_t noise3d = 76, noise_generator = 78; // internal functions by number
-constexpr int scene_noise_generator = 2;
 
 // `internal(N)`: the function of POV-Ray's number N.
 void parse_internal(Parser& p, Function& function) {
@@ -25,15 +24,17 @@ void parse_internal(Parser& p, Function& function) {
     const double number = parse_float(p);
     expect(p, ')', "to close `internal(`");
     const auto all = internal_functions();
-    const bool exists = number >= 0 && number < static_cast<double>(all.size()) && number == std::trunc(number);
+    const bool exists =
+        number >= 0 && number < static_cast<double>(all.size()) && number == std::trunc(number);
     std::size_t index = exists ? static_cast<std::size_t>(number) : 0;
     if (!exists || all[index].name.empty())
         fail(p, at_number, fmt::format("there is no internal function {}", number));
     function.parameters = all[index].parameters;
     for (int i = 0; i < function.parameters; ++i)
-        function.code.push_back({.kind = Instruction::Kind::argument, .index = static_cast<std::uint32_t>(i)});
+        function.code.push_back(
+            {.kind = Instruction::Kind::argument, .index = static_cast<std::uint32_t>(i)});
     if (index == noise3d) { // the noise that counts in the scene
-        function.code.push_back({.value = scene_noise_generator});
+        function.code.push_back({.value = static_cast<double>(p.scene.noise_generator)});
         index = noise_generator;
     }
     if (!all[index].evaluate) function.unsupported = fmt::format("{}", all[index].name);
@@ -93,13 +94,6 @@ void parse_spline_function(Parser& p, Function& function) {
     };
 }
 
-// What stands in place of an expression, up to the function's `}`.
-void skip_body(Parser& p, Function& function) {
-    function.unsupported = fmt::format("{} functions", token_text(p, next(p), false));
-    const std::int64_t depth = p.in.brace_depth;
-    while (!at_end(p) && !(p.in.brace_depth == depth && at(p, '}'))) next(p);
-}
-
 } // namespace
 
 bool parse_native(Parser& p, Function& function) {
@@ -113,12 +107,11 @@ bool parse_native(Parser& p, Function& function) {
     case "pigment"_kw:
         parse_pigment_function(p, function);
         return true;
-    case "pattern"_kw:
-    case "pattern"_kw:
-        parse_pattern_function(p, function);
-        return true;
     case "spline"_kw:
         parse_spline_function(p, function);
+        return true;
+    case "pattern"_kw:
+        parse_pattern_function(p, function);
         return true;
     default:
         return false;

@@ -38,8 +38,8 @@ double cubic_value(const Knots& k, std::size_t i, std::size_t c, double t) {
     const double h = k[i].parameter - k[i - 1].parameter, u = (t - k[i - 1].parameter) / h, w = 1 - u;
     const double before = (slope(k, i - 1, c) + slope(k, i, c)) / 2 * h;
     const double behind = (slope(k, i, c) + slope(k, i + 1, c)) / 2 * h;
-    return w * w * (1 + 2 * u) * k[i - 1].point[c] + u * w * w * before + u * u * (1 + 2 * w) * k[i].point[c] -
-           u * u * w * behind;
+    return w * w * (1 + 2 * u) * k[i - 1].point[c] + u * w * w * before +
+           u * u * (1 + 2 * w) * k[i].point[c] - u * u * w * behind;
 }
 
 double natural_value(const Knots& k, std::size_t i, std::size_t c, double t) {
@@ -57,8 +57,7 @@ void set_bends(Spline& spline) {
     for (std::size_t c = 0; c < static_cast<std::size_t>(spline.components); ++c) {
         upper[0] = right[0] = 0;
         for (std::size_t i = 1; i + 1 < k.size(); ++i) {
-            const double h = k[i].parameter - k[i - 1].parameter,
-                         next = k[i + 1].parameter - k[i].parameter;
+            const double h = k[i].parameter - k[i - 1].parameter, next = k[i + 1].parameter - k[i].parameter;
             const double pivot = 2 * (h + next) - h * upper[i - 1];
             upper[i] = next / pivot;
             right[i] = (6 * (slope(k, i + 1, c) - slope(k, i, c)) - h * right[i - 1]) / pivot;
@@ -148,7 +147,8 @@ void parse_knot(Parser& p, Spline& spline, SplineKnot& knot) {
     promote(point, 2);
     accept_comma(p);
     spline.components = std::max(spline.components, point.size);
-    std::copy_n(point.v, point.size, knot.point.begin()); // what a shorter point lacks is as in the one before
+    std::copy_n(point.v, point.size,
+                knot.point.begin()); // what a shorter point lacks is as in the one before
     charge(p, at, sizeof(SplineKnot));
     charge_work(p, at, static_cast<std::int64_t>(spline.knots.size() / 64));
     insert_knot(spline, knot);

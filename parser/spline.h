@@ -30,8 +30,8 @@ struct Spline {
 
 // The bends of the natural spline from the parameters and points [Press et al. 2007, section 3.3].
 void set_bends(Spline& spline);
-// Fills `components` numbers. Beyond the first and last knot the curve stands still; a cubic one passes from the second
-// knot to the last but one.
+// Fills `components` numbers. Beyond the first and last knot the curve stands still; a cubic one passes from
+// the second knot to the last but one.
 void evaluate(const Spline& spline, SplineKind kind, double parameter, double* result);
 
 // `{ ... }`, the word `spline` having been taken.
