@@ -9,6 +9,11 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <new>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
 
 namespace pnr {
 
@@ -257,7 +262,7 @@ struct Collapser {
     const std::vector<BinaryNode>& binary;
     const std::vector<Reference>& references;
     std::span<const float> corners;
-    std::vector<CacheLine>& tree;
+    TreeLines& tree;
     std::size_t node_count = 0, block_count = 0;
 
     template <class T>
@@ -273,7 +278,7 @@ struct Collapser {
         TriangleBlock<B> block;
         for (std::uint32_t lane = 0; lane < B; ++lane) {
             const std::uint32_t number = r[lane < node.count ? lane : 0].number();
-            block.triangle[lane] = number;
+            block.triangle[lane] = lane < node.count ? number : no_primitive;
             for (std::size_t v = 0; v < 3; ++v)
                 for (std::size_t k = 0; k < 3; ++k)
                     block.corner[v][k][lane] = corners[9 * std::size_t{number} + 3 * v + k];
@@ -386,6 +391,17 @@ std::vector<Reference> make_references(std::span<const float> corners, std::span
 
 } // namespace
 
+void* allocate_pages(std::size_t bytes) {
+    constexpr std::size_t huge = std::size_t{2} << 20;
+    const std::size_t page = bytes < huge ? line_size : huge;
+    void* p = std::aligned_alloc(page, (bytes + page - 1) / page * page);
+    if (!p) throw std::bad_alloc();
+#if defined(__linux__)
+    if (page == huge) madvise(p, bytes, MADV_HUGEPAGE); // if not, then not
+#endif
+    return p;
+}
+
 Bvh build_bvh(std::span<const float> corners, std::span<const FloatBox> others, const BvhKernel& kernel) {
     Bvh bvh;
     bvh.kernel = &kernel;
@@ -400,15 +416,16 @@ Bvh build_bvh(std::span<const float> corners, std::span<const FloatBox> others, 
     case 4:
         collapse<4, 4>(bvh, binary, references, corners);
         break;
-    case 8:
-        collapse<8, 8>(bvh, binary, references, corners);
-        break;
     default:
-        collapse<16, 8>(bvh, binary, references, corners);
+        collapse<8, 8>(bvh, binary, references, corners);
         break;
     }
     bvh.view.triangles = bvh.triangles.get();
-    for (const float x : corners) bvh.view.extent = std::max(bvh.view.extent, std::abs(x));
+    alignas(16) float low[4], high[4];
+    binary[0].box.low.store(low);
+    binary[0].box.high.store(high);
+    for (int k = 0; k < 3; ++k)
+        bvh.view.extent = std::max({bvh.view.extent, std::abs(low[k]), std::abs(high[k])});
     return bvh;
 }
 
@@ -416,15 +433,17 @@ std::vector<const BvhKernel*> available_kernels() {
     std::vector<const BvhKernel*> kernels{scalar_kernel()};
     if (baseline_kernel()) kernels.push_back(baseline_kernel());
 #if defined(__x86_64__)
-    if (avx2_kernel() && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("bmi"))
-        kernels.push_back(avx2_kernel());
-    if (avx512_kernel() && __builtin_cpu_supports("avx512f")) kernels.push_back(avx512_kernel());
+    const bool avx2 =
+        __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi");
+    if (avx2_kernel() && avx2) kernels.push_back(avx2_kernel());
+    if (avx512_kernel() && avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl"))
+        kernels.push_back(avx512_kernel());
 #endif
     return kernels;
 }
 
-// Sixteen boxes at a time beat eight by 5 to 10 % on all meshes measured (Zen 5; bench_rays), and by nothing
-// on slivers.
+// Sixteen boxes at a time were 15 to 20 % slower than eight on an Intel processor of 2024, and 5 to 10 %
+// faster on an AMD one: what pays everywhere is AVX-512's registers (2 to 4 %).
 const BvhKernel& best_kernel() { return *available_kernels().back(); }
 
 } // namespace pnr
