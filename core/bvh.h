@@ -48,10 +48,11 @@ struct Bvh {
     std::unique_ptr<const ExactTriangles> triangles;
 };
 
-// Binned SAH [Wald 2007, "On fast construction of SAH-based bounding volume hierarchies"], collapsed to the
-// kernel's width [Wald, Benthin and Boulos 2008]. `corners` holds nine finite floats a triangle, largest
-// about 1; triangles without area are left out. `others` are the boxes of other primitives, numbered as
-// given. The result does not depend on the number of threads.
+// Binned SAH [Wald 2007, "On fast construction of SAH-based bounding volume hierarchies"], collapsed to
+// the kernel's width [Wald, Benthin and Boulos 2008] at the least expected cost [Ylitie, Karras and Laine
+// 2017]. `corners` holds nine finite floats a triangle, largest about 1; triangles without area are left out.
+// `others` are the boxes of other primitives, numbered as given. The result does not depend on the number of
+// threads.
 Bvh build_bvh(std::span<const float> corners, std::span<const FloatBox> others, const BvhKernel& kernel);
 
 // All kernels that this processor can run, the plainest first, and the one that is fastest on it.
