@@ -49,6 +49,8 @@ struct Options {
     std::optional<double> antialias; // POV-Ray's +A threshold; 0: one sample a pixel
     std::filesystem::path maps, stats, save_photons, load_photons; // empty: not asked for
     std::vector<std::string> aovs;
+    std::optional<double> time_s, error; // --time, --error (a fraction)
+    std::optional<int> passes;
     ProgressMode progress = ProgressMode::automatic;
     bool prune = true, skip_existing = false, no_overwrite = false, werror = false;
     TextFormat format = TextFormat::text;

@@ -85,6 +85,7 @@ struct IrradianceField {
     KdTree lit_tree;
     mutable std::atomic<std::int64_t> records{0};
     std::uint64_t seed = 0;
+    double shrink = 1; // in area, of the widths below: see make_irradiance_field
 };
 
 namespace {
@@ -152,13 +153,48 @@ Level make_level(const World& world, const PhotonMap& map, float spacing) {
 // ---- light that gather rays meet
 // ----------------------------------------------------------------------------------
 
+// One in `lit_stride` photons marks a place, by chance; the others tell the light there. Were these the same photons, a
+// place would seem too bright by its own photon, and as the nearest place of points about it too dark again: what has no
+// other place near lies where photons are few.
+bool marks_place(std::size_t photon) { return hash_words(photon, 0x3c6ef372fe94f82bull) % lit_stride == 0; }
+
+// Irradiance by all light from the photons that mark no place, at a point of the side `normal`; kernel and limits as in
+// radiance.cpp's density estimate.
+Color irradiance_by_others(const PhotonMap& map, int neighbours, Vec3f at, Vec3f normal,
+                           std::vector<Neighbour>& scratch) {
+    constexpr auto share = static_cast<float>(lit_stride - 1) / static_cast<float>(lit_stride);
+    const int count = static_cast<int>(std::lround(static_cast<float>(neighbours) / share));
+    SearchHint hint;
+    find_nearest_near(map.tree, at, count, map.radius, hint, scratch);
+    const bool full = static_cast<int>(scratch.size()) >= count;
+    std::erase_if(scratch, [](const Neighbour& near) { return marks_place(near.index); });
+    if (scratch.empty()) return Color{0};
+    float radius2 = map.radius * map.radius;
+    if (full) { // the last one ended the search and is left out
+        radius2 = 0;
+        for (const Neighbour& near : scratch) radius2 = std::max(radius2, near.distance2);
+    }
+    if (!(radius2 > 0)) return Color{0};
+    const float thickness = 0.5f * std::sqrt(radius2);
+    Color sum{0};
+    for (const Neighbour& near : scratch) {
+        const Photon& photon = map.photons[near.index];
+        if (near.distance2 >= radius2 || glm::dot(photon.direction, normal) >= 0) continue;
+        if (std::abs(glm::dot(photon.position - at, normal)) > thickness) continue;
+        sum += photon.flux * (2 * (1 - near.distance2 / radius2));
+    }
+    return sum / (static_cast<float>(pi) * radius2 * share);
+}
+
 void light_points(const World& world, const PhotonMap& map, IrradianceField& field,
                   const Progress& progress) {
-    const std::size_t count = (map.photons.size() + lit_stride - 1) / lit_stride;
+    std::vector<std::uint32_t> marks;
+    for (std::size_t i = 0; i < map.photons.size(); ++i)
+        if (marks_place(i)) marks.push_back(static_cast<std::uint32_t>(i));
+    const std::size_t count = marks.size();
     field.lit.resize(count);
     std::vector<Vec3f> positions(count);
-    const GatherSettings settings{lit_neighbours, map.radius, GatherKernel::epanechnikov, true, true, true, 0,
-                                  false};
+    const int neighbours = std::max(8, static_cast<int>(std::lround(lit_neighbours * field.shrink)));
     std::atomic<std::int64_t> done{0};
     std::atomic<bool> stop{false};
     parallel_for(
@@ -166,15 +202,13 @@ void light_points(const World& world, const PhotonMap& map, IrradianceField& fie
             std::vector<Neighbour> scratch;
             for (std::int64_t n = begin; n < end && !stop; ++n) {
                 const auto i = static_cast<std::size_t>(n);
-                const Photon& photon = map.photons[i * lit_stride];
+                const Photon& photon = map.photons[marks[i]];
                 positions[i] = photon.position;
                 const std::optional<Hit> hit = hit_of_photon(world, photon);
                 if (!hit) continue; // its normal stays 0: no ray takes it
-                Bsdf meter;
-                meter.normal = meter.geometric = lit_side(*hit, photon);
-                meter.diffuse = Color{static_cast<float>(pi)};
-                field.lit[i] = {Vec3f(meter.normal),
-                                gather(world, map, settings, hit->position, meter, meter.normal, scratch)};
+                const Vec3f normal(lit_side(*hit, photon));
+                field.lit[i] = {normal,
+                                irradiance_by_others(map, neighbours, photon.position, normal, scratch)};
             }
             if (progress && !progress(done += end - begin, static_cast<std::int64_t>(count))) stop = true;
         });
@@ -340,14 +374,14 @@ void find_gradients(const GatherRays& rays, const Frame& frame, double least, Re
 // How far a record may be trusted: a share of the harmonic mean distance, no farther than to the nearest
 // thing seen (a round thing's foot is narrow, and the mean distance knows nothing of it) and than its own
 // gradient allows.
-float trusted_reach(const GatherRays& rays, const Record& record, double scene_radius) {
+float trusted_reach(const GatherRays& rays, const Record& record, double share, double scene_radius) {
     double inverse = 0, least = infinity;
     for (const auto& ring : rays.distance)
         for (const double d : ring) {
             inverse += 1 / std::max(d, 1e-9 * scene_radius);
             least = std::min(least, d);
         }
-    double reach = inverse > 0 ? trusted_share * rings * sectors / inverse : scene_radius;
+    double reach = inverse > 0 ? share * rings * sectors / inverse : scene_radius;
     reach = std::min(reach, least);
     const Vec3f slope = record.moved[0] * 0.2126f + record.moved[1] * 0.7152f + record.moved[2] * 0.0722f;
     const double steep = glm::length(slope);
@@ -365,7 +399,7 @@ Record make_record(const IrradianceField& field, const World& world, const Photo
     const GatherRays rays = shoot({field, world, map}, *hit, frame, rng);
     record.irradiance = irradiance_of(rays);
     find_gradients(rays, frame, field.levels.back().spacing, record);
-    record.reach = trusted_reach(rays, record, world.radius);
+    record.reach = trusted_reach(rays, record, trusted_share * std::sqrt(field.shrink), world.radius);
     return record;
 }
 
@@ -418,8 +452,10 @@ struct Blend {
 } // namespace
 
 std::shared_ptr<const IrradianceField> make_irradiance_field(const World& world, const PhotonMap& map,
-                                                             const Progress& progress) {
+                                                             const Progress& progress, double shrink) {
     auto field = std::make_shared<IrradianceField>();
+    field->shrink = shrink;
+    field->seed = static_cast<std::uint64_t>(map.pass);
     if (map.photons.empty() || map.tree.count == 0) return field;
     light_points(world, map, *field, progress);
     // From a tenth of the scene's radius down to the mean distance of photons, by halves.
