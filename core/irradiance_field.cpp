@@ -2,6 +2,7 @@
 #include "core/irradiance_field.h"
 
 #include "core/gbuffer.h"
+#include "core/lit_places.h"
 #include "core/radiance.h"
 
 #include <atomic>
@@ -32,8 +33,7 @@ constexpr int most_levels = 4;
 constexpr float sure_weight = 0.05f;
 // Weight of a record where it is not to be trusted, if no other is.
 constexpr float last_resort = 1e-5f;
-// One in so many photons gets its irradiance computed beforehand, from so many neighbours.
-constexpr std::size_t lit_stride = 4;
+// Photons that tell the light where gather rays end.
 constexpr int lit_neighbours = 64;
 
 // Irradiance and its derivatives when the point moves or the normal turns, a vector for each channel.
@@ -56,33 +56,11 @@ struct Level {
     std::vector<Record> records; // of the sites, filled when first asked for
 };
 
-// Irradiance from all photons at one of them.
-struct LitPoint {
-    Vec3f normal{0};
-    Color irradiance{0};
-};
-
-// The surface under a photon, met again by its ray: a photon's record knows neither surface nor normal.
-// Nothing if something else is met first (a sheet thinner than the step back).
-std::optional<Hit> hit_of_photon(const World& world, const Photon& photon) {
-    const Vec3 direction = glm::normalize(Vec3(photon.direction));
-    const double back = 0x1p-12 * world.radius, slack = 0x1p-20 * world.radius;
-    const Ray ray{Vec3(photon.position) - direction * back, direction, 0, 2 * back};
-    std::optional<Hit> hit = closest_hit(world, ray, RayKind::photon);
-    if (!hit || glm::length(hit->position - Vec3(photon.position)) > slack) return std::nullopt;
-    return hit;
-}
-
-Vec3 lit_side(const Hit& hit, const Photon& photon) {
-    return glm::dot(hit.normal, Vec3(photon.direction)) < 0 ? hit.normal : -hit.normal;
-}
-
 } // namespace
 
 struct IrradianceField {
     mutable std::vector<Level> levels;
-    std::vector<LitPoint> lit;
-    KdTree lit_tree;
+    LitPlaces lit;
     mutable std::atomic<std::int64_t> records{0};
     std::uint64_t seed = 0;
     double shrink = 1; // in area, of the widths below: see make_irradiance_field
@@ -150,84 +128,8 @@ Level make_level(const World& world, const PhotonMap& map, float spacing) {
     return level;
 }
 
-// ---- light that gather rays meet
+// ---- light that gather rays bring
 // ----------------------------------------------------------------------------------
-
-// One in `lit_stride` photons marks a place, by chance; the others tell the light there. Were these the same photons, a
-// place would seem too bright by its own photon, and as the nearest place of points about it too dark again: what has no
-// other place near lies where photons are few.
-bool marks_place(std::size_t photon) { return hash_words(photon, 0x3c6ef372fe94f82bull) % lit_stride == 0; }
-
-// Irradiance by all light from the photons that mark no place, at a point of the side `normal`; kernel and limits as in
-// radiance.cpp's density estimate.
-Color irradiance_by_others(const PhotonMap& map, int neighbours, Vec3f at, Vec3f normal,
-                           std::vector<Neighbour>& scratch) {
-    constexpr auto share = static_cast<float>(lit_stride - 1) / static_cast<float>(lit_stride);
-    const int count = static_cast<int>(std::lround(static_cast<float>(neighbours) / share));
-    SearchHint hint;
-    find_nearest_near(map.tree, at, count, map.radius, hint, scratch);
-    const bool full = static_cast<int>(scratch.size()) >= count;
-    std::erase_if(scratch, [](const Neighbour& near) { return marks_place(near.index); });
-    if (scratch.empty()) return Color{0};
-    float radius2 = map.radius * map.radius;
-    if (full) { // the last one ended the search and is left out
-        radius2 = 0;
-        for (const Neighbour& near : scratch) radius2 = std::max(radius2, near.distance2);
-    }
-    if (!(radius2 > 0)) return Color{0};
-    const float thickness = 0.5f * std::sqrt(radius2);
-    Color sum{0};
-    for (const Neighbour& near : scratch) {
-        const Photon& photon = map.photons[near.index];
-        if (near.distance2 >= radius2 || glm::dot(photon.direction, normal) >= 0) continue;
-        if (std::abs(glm::dot(photon.position - at, normal)) > thickness) continue;
-        sum += photon.flux * (2 * (1 - near.distance2 / radius2));
-    }
-    return sum / (static_cast<float>(pi) * radius2 * share);
-}
-
-void light_points(const World& world, const PhotonMap& map, IrradianceField& field,
-                  const Progress& progress) {
-    std::vector<std::uint32_t> marks;
-    for (std::size_t i = 0; i < map.photons.size(); ++i)
-        if (marks_place(i)) marks.push_back(static_cast<std::uint32_t>(i));
-    const std::size_t count = marks.size();
-    field.lit.resize(count);
-    std::vector<Vec3f> positions(count);
-    const int neighbours = std::max(8, static_cast<int>(std::lround(lit_neighbours * field.shrink)));
-    std::atomic<std::int64_t> done{0};
-    std::atomic<bool> stop{false};
-    parallel_for(
-        static_cast<std::int64_t>(count), 1024, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-            std::vector<Neighbour> scratch;
-            for (std::int64_t n = begin; n < end && !stop; ++n) {
-                const auto i = static_cast<std::size_t>(n);
-                const Photon& photon = map.photons[marks[i]];
-                positions[i] = photon.position;
-                const std::optional<Hit> hit = hit_of_photon(world, photon);
-                if (!hit) continue; // its normal stays 0: no ray takes it
-                const Vec3f normal(lit_side(*hit, photon));
-                field.lit[i] = {normal,
-                                irradiance_by_others(map, neighbours, photon.position, normal, scratch)};
-            }
-            if (progress && !progress(done += end - begin, static_cast<std::int64_t>(count))) stop = true;
-        });
-    if (stop) throw Interrupted{};
-    field.lit_tree = build_kdtree(positions);
-}
-
-// Irradiance at a point that a gather ray met, from the nearest lit point of its side and about its plane.
-Color lit_irradiance(const IrradianceField& field, Vec3 position, Vec3 normal,
-                     std::vector<Neighbour>& scratch) {
-    const Vec3f n(normal);
-    for (const int neighbours : {1, 8}) { // most often the nearest will do
-        find_nearest(field.lit_tree, Vec3f(position), neighbours, std::numeric_limits<float>::infinity(),
-                     scratch);
-        for (const Neighbour& near : scratch)
-            if (glm::dot(field.lit[near.index].normal, n) > 0.7f) return field.lit[near.index].irradiance;
-    }
-    return Color{0};
-}
 
 // What the points share that gather rays are shot from.
 struct GatherScene {
@@ -280,7 +182,7 @@ Color gathered_radiance(const GatherScene& scene, Ray ray, Rng& rng, double& dis
             matt.diffuse = bsdf.diffuse + bsdf.glossy;
             if (hit->t >= near || scattered == most_near)
                 return found + throughput * matt.diffuse / static_cast<float>(pi) *
-                                   lit_irradiance(scene.field, hit->position, matt.normal, scratch);
+                                   lit_irradiance(scene.field.lit, hit->position, matt.normal, scratch);
             found += throughput * near_light(scene, *hit, matt, outgoing, rng, scratch);
             throughput *= matt.diffuse;
             ray = leave(*hit, square_to_cosine(rng.uniform2(), make_frame(matt.normal)));
@@ -457,7 +359,8 @@ std::shared_ptr<const IrradianceField> make_irradiance_field(const World& world,
     field->shrink = shrink;
     field->seed = static_cast<std::uint64_t>(map.pass);
     if (map.photons.empty() || map.tree.count == 0) return field;
-    light_points(world, map, *field, progress);
+    const int neighbours = std::max(8, static_cast<int>(std::lround(lit_neighbours * shrink)));
+    field->lit = make_lit_places(world, map, neighbours, progress);
     // From a tenth of the scene's radius down to the mean distance of photons, by halves.
     const double photon_distance = std::sqrt(pi / 100) * map.radius;
     std::vector<float> spacings;
