@@ -218,7 +218,36 @@ void add_others(CLI::App& parent, Options& options, Words& words, std::optional<
                 "Pixels are those of the picture that `pnr render` makes with the same -W and -H.");
 
     CLI::App& help = *parent.add_subcommand("help", "Explain a command");
-    help.add_option("COMMAND", words.help, "render, check, plan or pick");
+    help.add_option("COMMAND", words.help, "render, check, plan, pick or ilic");
+}
+
+void add_ilic(CLI::App& parent, Options& options, Words& words, std::optional<ProgressMode>& progress) {
+    CLI::App& app = *parent.add_subcommand("ilic", "Paint a flat picture along its own edges");
+    IlicOptions& ilic = options.ilic;
+    app.add_option("PICTURE", ilic.picture, "PNG, JPEG, EXR or what else the image library reads")->required();
+    app.add_option("-o", words.outputs, "Write this picture, .png or .exr (default: PICTURE_painted.png)")
+        ->type_name("IMAGE")
+        ->allow_extra_args(false);
+    app.add_option("--style", ilic.style, "How paint is laid: ilic, oil, impasto, pastel, fur, wash (default: ilic)")
+        ->type_name("WORD");
+    const auto pixels = CLI::Range(0.0, 1000.0);
+    app.add_option("--length", ilic.length, "Length of a stroke, in pixels of a picture 512 high")
+        ->type_name("N")
+        ->check(pixels);
+    app.add_option("--cell", ilic.cell, "Width of a stroke, likewise; one coat")->type_name("N")->check(pixels);
+    app.add_option("--size", ilic.size, "All strokes so many times as large")
+        ->type_name("FACTOR")
+        ->check(CLI::Range(0.05, 20.0));
+    app.add_option("--seed", options.seed, "Random seed")->type_name("N");
+    app.add_option("--threads", options.threads, "Threads to use (default: all)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+    add_choice<ProgressMode>(
+        app, "--progress", progress,
+        {{"auto", ProgressMode::automatic}, {"off", ProgressMode::off}, {"json", ProgressMode::json}},
+        "Progress on standard error");
+    app.footer("Example:\n  pnr ilic photo.jpg -o painting.png --style oil --length 20\n"
+               "Strokes follow the picture's edges [Wang and Lee 2003]; paint in space is `pnr render`'s.");
 }
 
 void finish_options(Options& options, const Words& words) {
@@ -291,6 +320,7 @@ struct Parsing {
         app.require_subcommand(1);
         add_render(app, options, words, progress);
         add_others(app, options, words, format);
+        add_ilic(app, options, words, progress);
         app.footer("Exit codes: 0 done, 1 render failed, 2 usage, 3 error in the scene, 4 file not read or "
                    "written,\n"
                    "5 done, but --error was missed, 130 or 143 stopped by a signal.");
