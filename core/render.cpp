@@ -45,6 +45,7 @@ struct Job {
     const Settings& settings;
     SampleCounts samples;
     PixelRect window; // pixels with sums: the picture's window and an apron of one pixel
+    int first_sample = 0; // of each pixel's sequence
     std::vector<PixelSums> sums;
 
     std::size_t index(int x, int y) const {
@@ -152,7 +153,8 @@ void add_path(const Job& job, int x, int y, int i, PixelSums& sums, Counts& coun
 void add_samples(const Job& job, int x, int y, int end, PixelSums& sums, Counts& counts) {
     std::vector<KeptIrradiance> kept;
     std::vector<Neighbour> scratch;
-    for (int i = sums.count(); i < end; ++i) {
+    for (int n = sums.count(); n < end; ++n) {
+        const int i = job.first_sample + n;
         if (job.settings.render.integrator == Integrator::path)
             add_path(job, x, y, i, sums, counts);
         else
@@ -335,15 +337,24 @@ RenderResult empty_result(int width, int height, bool want_parts) {
 } // namespace
 
 RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap& map,
-                    const Settings& settings, PixelRect window, bool want_parts, const Progress& progress) {
+                    const Settings& settings, PixelRect window, bool want_parts, const Progress& progress,
+                    std::optional<SampleRange> samples) {
     const int width = gbuffer.view.width, height = gbuffer.view.height;
     RenderResult result = empty_result(width, height, want_parts);
     Shading shading{world, map, settings.render, {}, {}, want_parts};
     choose_gathers(shading, settings.photons);
 
-    const SampleCounts samples = sample_counts(world, settings.render);
-    const auto [first, most] = std::pair(samples.first, samples.most);
-    Job job{shading, gbuffer, settings, samples, grow(window, 1, width, height), {}};
+    // Samples that are given need no look at the neighbours.
+    const SampleCounts counted =
+        samples ? SampleCounts{samples->count, samples->count} : sample_counts(world, settings.render);
+    const auto [first, most] = std::pair(counted.first, counted.most);
+    Job job{shading,
+            gbuffer,
+            settings,
+            counted,
+            grow(window, samples ? 0 : 1, width, height),
+            samples ? samples->first : 0,
+            {}};
     job.sums.resize(static_cast<std::size_t>(area(job.window)));
     const PixelRect inner = grow(window, 0, width, height);
     const std::int64_t total = std::max<std::int64_t>(1, area(job.window) + area(inner));

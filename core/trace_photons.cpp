@@ -259,6 +259,7 @@ PhotonMap trace_photons(const World& world, const PhotonSettings& settings, std:
     map.radius = static_cast<float>(settings.radius);
     const EmissionPlan plan = plan_emission(world, settings);
     map.emitted = plan.count;
+    map.pass = pass;
     std::vector<Chunk> chunks(
         static_cast<std::size_t>((plan.count + photons_per_chunk - 1) / photons_per_chunk));
     std::atomic<std::int64_t> done{0};
