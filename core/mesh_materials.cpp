@@ -50,7 +50,7 @@ std::string read_picture_name(MeshCursor& in) {
 
 Texture texture_of(const Said& said, const fs::path& folder, const SourceRef& said_at) {
     Texture texture;
-    TextureLayer& layer = texture.layers.front();
+    TextureLayer& layer = texture;
     layer.pigment.map = {{0, {glm::min(said.diffuse, Color(1)), 0, 1 - share(said.opacity)}}};
     if (!said.picture.empty() && stays_below(said.picture)) {
         ImagePattern picture;

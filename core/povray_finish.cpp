@@ -189,7 +189,7 @@ Color lit_from(const Shading& shading, const Look& look, const Light& light, con
     Color sum;
     if (finish.irid.turbulence != 0) {
         Finish here = finish;
-        here.irid.thickness *= film_thickness(finish.irid, hit.position + shading.world.offset);
+        here.irid.thickness *= film_thickness(finish.irid, look.point.hit.position + shading.world.offset);
         sum = lit(here);
     } else {
         sum = lit(finish);
