@@ -21,20 +21,20 @@ TEST(MeshMaterials, BecomeTextures) {
                         "newmtl picture\nmap_Kd -s 1 1 1 sub\\wood.png\nnewmtl far\nmap_Kd ../up.png\n",
                         "folder", "test.mtl", {});
     ASSERT_EQ(textures.size(), 4u);
-    const TextureLayer& red = textures.at("red").layers.front();
+    const TextureLayer& red = textures.at("red");
     EXPECT_EQ(red.pigment.map.front().color.rgb, Color(0.8f, 0.1f, 0.2f));
     EXPECT_FLOAT_EQ(red.pigment.map.front().color.transmit, 0.75f);
     EXPECT_DOUBLE_EQ(red.finish.phong, 0.5);
     EXPECT_DOUBLE_EQ(red.finish.phong_size, 120);
-    const TextureLayer& lamp = textures.at("lamp").layers.front();
+    const TextureLayer& lamp = textures.at("lamp");
     EXPECT_EQ(lamp.finish.emission, Color(3, 2, 1));
     EXPECT_FLOAT_EQ(lamp.pigment.map.front().color.transmit, 0.5f);
     const auto* picture =
-        std::get_if<ImagePattern>(&textures.at("picture").layers.front().pigment.pattern.kind);
+        std::get_if<ImagePattern>(&textures.at("picture").pigment.pattern.kind);
     ASSERT_TRUE(picture);
     EXPECT_EQ(fs::path(picture->file), fs::path("folder") / "sub" / "wood.png");
-    EXPECT_TRUE(textures.at("picture").layers.front().pigment.pattern.uv_mapping);
-    EXPECT_FALSE(std::get_if<ImagePattern>(&textures.at("far").layers.front().pigment.pattern.kind))
+    EXPECT_TRUE(textures.at("picture").pigment.pattern.uv_mapping);
+    EXPECT_FALSE(std::get_if<ImagePattern>(&textures.at("far").pigment.pattern.kind))
         << "it would leave the folder";
 }
 
@@ -62,7 +62,7 @@ TEST(MeshMaterials, AreShownByTheFacesThatUseThem) {
     EXPECT_EQ(color_at(0.8, 0.8), Color(0, 1, 0));
     EXPECT_EQ(color_at(1.0, 1.2), Color(0, 0, 0)); // the object has none: black
     object.texture.emplace();
-    object.texture->layers.front().pigment.map.front().color.rgb = Color(0, 0, 1);
+    object.texture->pigment.map.front().color.rgb = Color(0, 0, 1);
     EXPECT_EQ(color_at(0.2, 0.2), Color(0, 0, 1));
     fs::remove_all(folder);
 }
