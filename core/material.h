@@ -2,6 +2,8 @@
 // One energy-conserving BSDF made of a POV-Ray finish, used alike by photons, the eye and the path tracer in photon-lit
 // scenes. Directions point away from the surface, are unit, and live in world space.
 //
+// Where a texture has several finishes, as layers or as parts of a pattern, their lobes are added, each with its share.
+//
 // Lobes: Lambertian diffuse (pigment * diffuse), a glossy lobe (specular or phong), a perfect mirror (reflection), and a
 // dielectric interface (pigment filter/transmit with interior ior; Fresnel shares light between mirror and refraction).
 #pragma once
@@ -22,6 +24,8 @@ struct Bsdf {
     Color transmit{0};        // transmittance into the refracted direction (Fresnel included); black at total reflection
     double eta = 1;           // ior of the side of `outgoing` over that of the other side
     Color emission{0};
+    Color tint{0};    // the pigment's colour, whatever the finish makes of it
+    double metal = 0; // how far highlights and reflections have it, 0..1
 };
 
 // `outgoing` points back along the ray that found the hit.

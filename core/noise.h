@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// POV-Ray's solid noise, value for value: lattice noise of [Perlin 1985] in the form that DKBTrace gave it, a plane at
-// each corner of an integer lattice, blended by smoothsteps.
+// POV-Ray's solid noise, value for value: lattice noise of [Perlin 1985] in the form that DKBTrace gave it, a
+// plane at each corner of an integer lattice, blended by smoothsteps.
 #pragma once
 
 #include "core/types.h"
@@ -10,14 +10,15 @@
 
 namespace pnr {
 
-// In [0, 1]. generator: 1 as before POV-Ray 3.5, which clips at both ends; 2 the same brought into range (3.7's
-// default); 3 gradient noise. Far beyond 1e15 it is constant.
+// In [0, 1]. generator: 1 as before POV-Ray 3.5, which clips at both ends; 2 the same brought into range
+// (3.7's default); 3 gradient noise. Far beyond 1e15 it is constant.
 double noise(Vec3 point, int generator);
-// Three independent fields of the lattice, each about -1 to 1 (the first is generator 1's noise less 0.5, unclipped).
+// Three independent fields of the lattice, each about -1 to 1 (the first is generator 1's noise less 0.5,
+// unclipped).
 Vec3 noise_vector(Vec3 point);
 
-// Sums of `octaves` noises, each at `lambda` times the frequency and `omega` times the weight of the one before; the
-// words' amount is not applied.
+// Sums of `octaves` noises, each at `lambda` times the frequency and `omega` times the weight of the one
+// before; the words' amount is not applied.
 double turbulence(Vec3 point, const Turbulence& words, int generator);
 Vec3 turbulence_vector(Vec3 point, const Turbulence& words);
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pattern.h"
 
+#include "core/noise.h"
+#include "core/pattern_values.h"
+#include "core/pigment.h"
+
 #include <cmath>
 
 namespace pnr {
@@ -11,13 +15,6 @@ template <class... F>
 struct Overload : F... {
     using F::operator()...;
 };
-
-// The fractional part as POV-Ray takes it: 1 stays 1, every other integer gives 0.
-double ramp(double value, double tolerance) {
-    const double nearest = std::round(value);
-    if (std::abs(value - nearest) <= tolerance) return nearest == 1 ? 1 : 0;
-    return value - std::floor(value);
-}
 
 // A transform's inverse, and how far rounding may move the result: a face that lies exactly on a pattern's
 // border (the floor y = 0 under a checker, the top y = 1 of a gradient) must not flicker between two colours.
@@ -36,33 +33,102 @@ void go_back(const Transform& transform, SurfacePoint& at) {
     at.tolerance = std::max(at.tolerance, 1e-10 + rounding * largest);
 }
 
-double checker(const SurfacePoint& at) {
-    const Vec3 cell = glm::floor(at.point + Vec3(at.tolerance));
-    return std::fmod(std::abs(cell.x + cell.y + cell.z), 2.0);
-}
+// 1 stays 1, every other positive integer gives 0.
+double reduced(double value) { return value > 1 ? std::fmod(value, 1.0) : value; }
 
 double gradient(const GradientPattern& pattern, const SurfacePoint& at) {
     const double length = glm::length(pattern.axis);
-    return length > 0 ? ramp(glm::dot(at.point, pattern.axis / length), at.tolerance) : 0;
+    if (!(length > 0)) return 0;
+    const double value = glm::dot(at.point, pattern.axis / length), nearest = std::round(value);
+    return reduced(std::abs(value - nearest) <= at.tolerance ? nearest : value);
 }
 
-double value_of(const Pattern& pattern, const SurfacePoint& at) {
-    return std::visit(Overload{[&](const CheckerPattern&) { return checker(at); },
-                               [&](const GradientPattern& kind) { return gradient(kind, at); },
-                               [&](const FunctionPattern& kind) { return kind.value(at.point); },
-                               [](const auto&) { return 0.0; }},
-                      pattern.kind);
+// How far a direction leans from another, as POV-Ray's slope: 0 against it, 1 along it, linear in the angle.
+double lean(Vec3 direction, Vec3 normal) {
+    const double length = glm::length(direction) * glm::length(normal);
+    if (!(length > 0)) return 0;
+    return 1 - std::acos(std::clamp(glm::dot(direction, normal) / length, -1.0, 1.0)) / pi;
 }
 
-double shaped(const Pattern& pattern, double value, double tolerance) {
-    return ramp(value * pattern.frequency + pattern.phase, tolerance);
+double stretched(double value, double low, double high) {
+    return high > low ? (value - low) / (high - low) : value;
+}
+
+double slope(const SlopePattern& kind, const SurfacePoint& at) {
+    const Vec3 direction = kind.toward_point ? kind.direction - at.point : kind.direction;
+    double value = stretched(lean(direction, at.normal), kind.low_slope, kind.high_slope);
+    const double length = glm::length(kind.altitude);
+    if (length > 0)
+        value += stretched(glm::dot(at.point, kind.altitude / length), kind.low_altitude, kind.high_altitude);
+    return value;
+}
+
+double angle_of_incidence(const SurfacePoint& at) {
+    return std::acos(std::clamp(std::abs(glm::dot(at.normal, at.direction)), 0.0, 1.0)) / (pi / 2);
+}
+
+double brightness(const ColorFT& c) { return 0.297 * c.rgb.x + 0.589 * c.rgb.y + 0.114 * c.rgb.z; }
+
+struct RawValue {
+    const Pattern& pattern;
+    const SurfacePoint& at;
+
+    double operator()(const UniformPattern&) const { return 0; }
+    double operator()(const AveragePattern&) const { return 0; }
+    double operator()(const FacetsPattern&) const { return 0; }
+    double operator()(const ImagePattern&) const { return 0; }
+    double operator()(const DensityFilePattern&) const { return 0; }
+    double operator()(const GradientPattern& kind) const { return gradient(kind, at); }
+    double operator()(const PlainPattern& kind) const { return value_of(kind, pattern, at); }
+    double operator()(const AgatePattern& kind) const { return value_of(kind, pattern, at); }
+    double operator()(const SpiralPattern& kind) const { return value_of(kind, pattern, at); }
+    double operator()(const CracklePattern& kind) const { return value_of(kind, pattern, at); }
+    double operator()(const SlopePattern& kind) const { return slope(kind, at); }
+    double operator()(const AoiPattern&) const { return angle_of_incidence(at); }
+    double operator()(const ObjectPattern& kind) const { return kind.inside && kind.inside(at.point); }
+    double operator()(const PigmentPattern& kind) const {
+        return brightness(eval_pigment(*kind.pigment, at));
+    }
+    double operator()(const FunctionPattern& kind) const {
+        return kind.value ? reduced(kind.value(at.point)) : 0;
+    }
+    double operator()(const auto& kind) const { return value_of(kind, at); }
+};
+
+// Frequency, phase and wave. The remainder is POV-Ray's: a little above 1, so that 1 itself stays 1.
+double shaped(const Pattern& pattern, double value) {
+    if (pattern.frequency != 0) value = std::fmod(value * pattern.frequency + pattern.phase, 1.00001);
+    if (value < 0) value -= std::floor(value);
+    switch (pattern.wave) {
+    case Wave::ramp:
+        return value;
+    case Wave::triangle:
+        return triangle_wave(value);
+    case Wave::sine:
+        return 0.5 * (1 + cycloid(value));
+    case Wave::scallop:
+        return std::abs(cycloid(value * 0.5));
+    case Wave::cubic:
+        return value * value * (3 - 2 * value);
+    case Wave::poly:
+        return std::pow(value, pattern.exponent);
+    }
+    return value;
+}
+
+// Marble and wood, whose wave is a triangle, too.
+bool uses_turbulence_itself(const Pattern& pattern) {
+    const auto* plain = std::get_if<PlainPattern>(&pattern.kind);
+    return plain && (plain->kind == PlainKind::marble || plain->kind == PlainKind::wood);
 }
 
 } // namespace
 
 void set_kind(Pattern& pattern, PatternKind kind) {
     pattern.kind = std::move(kind);
-    pattern.wave = Wave::ramp;
+    const bool triangle =
+        uses_turbulence_itself(pattern) || std::holds_alternative<SpiralPattern>(pattern.kind);
+    pattern.wave = triangle ? Wave::triangle : Wave::ramp;
 }
 
 void add_warp(Pattern& pattern, Warp warp) {
@@ -93,13 +159,15 @@ SurfacePoint to_pattern_space(const Pattern& pattern, const SurfacePoint& at) {
         else
             here.point = warp_point(*warp, here.point);
     }
+    if (pattern.turbulence && !uses_turbulence_itself(pattern))
+        here.point = warp_point(*pattern.turbulence, here.point);
     return here;
 }
 
 double eval_pattern_here(const Pattern& pattern, const SurfacePoint& warped) {
-    const double value = value_of(pattern, warped);
+    const double value = std::visit(RawValue{pattern, warped}, pattern.kind);
     if (!std::isfinite(value)) return 0;
-    return is_list_pattern(pattern) ? value : shaped(pattern, value, warped.tolerance);
+    return is_list_pattern(pattern) ? value : shaped(pattern, value);
 }
 
 double eval_pattern(const Pattern& pattern, const SurfacePoint& at) {

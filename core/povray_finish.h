@@ -11,4 +11,8 @@ namespace pnr {
 // reflection, transparency); with a caustic map (`photons {}` alone) its light is added.
 Color povray_radiance(const Shading& shading, const Ray& camera_ray, SampleState& state);
 
+// Radiance against a ray of gathered light (radiosity.h); `weight` is the most that it can count in the picture. `distance`:
+// to what it meets.
+Color povray_gather_ray(const Shading& shading, const Ray& ray, Color weight, double& distance, SampleState& state);
+
 } // namespace pnr

@@ -8,6 +8,7 @@
 #include "core/pigment.h"
 #include "core/settings.h"
 #include "core/shape.h"
+#include "core/texture.h"
 #include "core/types.h"
 
 #include <functional>
@@ -17,38 +18,6 @@
 #include <vector>
 
 namespace pnr {
-
-// POV-Ray's `reflection`: between min (facing) and max (grazing).
-struct Reflection {
-    Color min{0}, max{0};
-    double falloff = 1;
-    double exponent = 1;
-    double metallic = 0;   // 0..1: how far the pigment tints it
-    bool fresnel = false;
-};
-
-struct Finish { // defaults are POV-Ray 3.7's
-    Color ambient{0.1f};
-    Color emission{0};
-    double diffuse = 0.6;
-    double brilliance = 1;
-    double phong = 0, phong_size = 40;
-    double specular = 0, roughness = 0.05;
-    double metallic = 0;   // of the highlights
-    Reflection reflection;
-    bool conserve_energy = false;
-};
-
-struct Interior {
-    double ior = 1;
-    double fade_distance = 0, fade_power = 0;
-    Color fade_color{0};
-};
-
-struct Texture {
-    Pigment pigment;
-    Finish finish;
-};
 
 // Object-level `photons { ... }`. PSR and PA of [LW10 Table 1], in sequence: specular with probability
 // specular_probability, else absorbed with absorption_probability, else diffuse. Unset: the finish decides.
@@ -139,10 +108,12 @@ struct Object {
     bool global_lights = true;        // ... by those of none
     Transform transform;              // shape's own space -> scene space
     std::optional<Texture> texture;   // children without one use their parent's
+    std::optional<Texture> interior_texture; // of the inner side; likewise
     std::optional<Interior> interior; // likewise
     std::optional<PhotonRoles> photons;
     std::optional<PaintWord> npr;
-    bool no_shadow = false, no_image = false, no_reflection = false, hollow = false, inverse = false;
+    bool no_shadow = false, no_image = false, no_reflection = false, no_radiosity = false, hollow = false, inverse = false;
+    bool double_illuminate = false;
 };
 
 struct Scene {
@@ -154,6 +125,8 @@ struct Scene {
     std::vector<LightSource> lights;
     Atmosphere atmosphere;
     Color ambient_light{1};          // global_settings
+    Color irid_wavelength{0.70f, 0.52f, 0.48f}; // global_settings; likewise
+    int noise_generator = 2, number_of_waves = 10; // of patterns that say none
     bool radiosity = false;          // a `radiosity {}` block: indirect light is wanted
     bool povray = false;             // a .pov file
     double version = 3.7;            // of POV-Ray, that the text asks for (#version)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/warp.h"
 
+#include "core/noise.h"
+
 namespace pnr {
 
 namespace {
@@ -9,6 +11,7 @@ struct Bend {
     Vec3 p;
 
     Vec3 operator()(const TransformWarp& warp) const { return transform_point(warp.transform.inverse, p); }
+    Vec3 operator()(const Turbulence& warp) const { return p + warp.amount * turbulence_vector(p, warp); }
     Vec3 operator()(const auto&) const { return p; }
 };
 

@@ -153,7 +153,18 @@ bool is_plain_union(const Object& object) {
     return !object.shape && object.combination == Combination::unite && !object.inverse;
 }
 
-bool lets_light_through(const Material& material) { return is_see_through(material.pigment); }
+bool lets_light_through(const Texture& texture) {
+    if (is_plain(texture))
+        return std::all_of(texture.layers.begin(), texture.layers.end(),
+                           [](const TextureLayer& layer) { return is_see_through(layer.pigment); });
+    return std::any_of(texture.textures.begin(), texture.textures.end(),
+                       [](const auto& entry) { return lets_light_through(entry.value); });
+}
+
+bool lets_light_through(const Material& material) {
+    return lets_light_through(material.texture) ||
+           (material.interior_texture && lets_light_through(*material.interior_texture));
+}
 
 // Who passes its surface goes in or out of something.
 bool bounds_a_solid(const Shape& shape) {
@@ -177,6 +188,7 @@ const char* group_name(Combination combination) {
 // What a child gets from its parents where it says nothing itself.
 struct Inherited {
     const Texture* texture = nullptr;
+    const Texture* interior_texture = nullptr;
     const Interior* interior = nullptr;
     const PhotonRoles* photons = nullptr;
     const PaintWord* npr = nullptr;
@@ -184,9 +196,10 @@ struct Inherited {
     Bounds limits{Vec3(-infinity), Vec3(infinity)}; // bounded_by
     int object = 0;
     int light_group = 0;
-    bool global_lights = true, hollow = false;
+    bool global_lights = true, hollow = false, no_radiosity = false;
     bool cutaway = false;
     bool unseen = false; // clips: they have no surface
+    bool double_illuminate = false;
     bool no_shadow = false, no_image = false, no_reflection = false;
 };
 
@@ -196,6 +209,7 @@ struct Builder {
     Assets assets;
     std::vector<GeometryItem> items; // in scene space until the offset is known
     std::vector<CsgNode> solids{};
+    std::map<const Interior*, int> interior_ids{};
 
     int number_object(const Object& object, const PaintWord* word) {
         WorldObject entry;
@@ -208,18 +222,28 @@ struct Builder {
     }
 
     int add_material(const Inherited& from) {
-        if (!from.texture && !from.interior && !from.photons) return 0;
+        if (!from.texture && !from.interior_texture && !from.interior && !from.photons) return 0;
         Material material;
-        if (from.texture) {
-            material.pigment = from.texture->pigment;
-            material.finish = from.texture->finish;
+        if (from.texture) material.texture = *from.texture;
+        if (from.interior_texture) material.interior_texture = *from.interior_texture;
+        if (from.interior) {
+            material.interior = *from.interior;
+            material.interior_id =
+                interior_ids.try_emplace(from.interior, static_cast<int>(interior_ids.size()) + 1).first->second;
         }
-        if (from.interior) material.interior = *from.interior;
+        material.double_illuminate = from.double_illuminate;
         if (from.photons) material.photons = *from.photons;
-        if (auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern.kind))
-            picture->image = assets.image(*picture, scene.assumed_gamma);
+        for (Texture* texture : {&material.texture, material.interior_texture ? &*material.interior_texture : nullptr})
+            if (texture) for_each_pattern(*texture, [&](Pattern& pattern) { prepare_pattern(pattern); });
         world.materials.push_back(std::move(material));
         return static_cast<int>(world.materials.size()) - 1;
+    }
+
+    void prepare_pattern(Pattern& pattern) {
+        if (pattern.noise_generator == 0) pattern.noise_generator = scene.noise_generator;
+        if (pattern.number_of_waves == 0) pattern.number_of_waves = scene.number_of_waves;
+        if (auto* picture = std::get_if<ImagePattern>(&pattern.kind))
+            picture->image = assets.image(*picture, scene.assumed_gamma);
     }
 
     // `bare`: it may show another's texture.
@@ -227,6 +251,7 @@ struct Builder {
         if (surface.no_image) item.hidden_from |= ray_bit(RayKind::camera);
         if (surface.no_reflection) item.hidden_from |= ray_bit(RayKind::specular);
         if (surface.no_shadow) item.hidden_from |= ray_bit(RayKind::shadow);
+        if (surface.no_radiosity) item.hidden_from |= ray_bit(RayKind::gather);
         const bool clear = surface.light < 0 && lets_light_through(world.materials[static_cast<std::size_t>(surface.material)]);
         if (surface.no_shadow || clear || bare) item.hidden_from |= ray_bit(RayKind::blocker);
         world.tinted_shadows |= !surface.no_shadow && (clear || bare);
@@ -238,6 +263,7 @@ struct Builder {
     Inherited inherit(const Object& object, Inherited from, bool top) {
         require(is_finite(object.transform), object.said_at, "a transform is not finite");
         if (object.texture) from.texture = &*object.texture;
+        if (object.interior_texture) from.interior_texture = &*object.interior_texture;
         if (object.interior) from.interior = &*object.interior;
         if (object.photons) from.photons = &*object.photons;
         if (object.npr) from.npr = &*object.npr;
@@ -245,8 +271,10 @@ struct Builder {
         from.no_shadow |= object.no_shadow;
         from.no_image |= object.no_image;
         from.no_reflection |= object.no_reflection;
+        from.double_illuminate |= object.double_illuminate;
         from.cutaway |= object.cutaway_textures;
         from.hollow |= object.hollow;
+        from.no_radiosity |= object.no_radiosity;
         if (object.light_group > 0) from.light_group = object.light_group, from.global_lights = object.global_lights;
         for (const Object& bound : object.bounds) from.limits = common(from.limits, object_bounds(bound));
         return from;
@@ -352,6 +380,7 @@ struct Builder {
         surface.light_group = from.light_group;
         surface.global_lights = from.global_lights;
         surface.hollow = from.hollow;
+        surface.no_radiosity = from.no_radiosity;
         surface.closed = bounds_a_solid(*object.shape);
         add_item(std::move(item), surface, from.cutaway && !from.texture);
         return static_cast<std::uint32_t>(items.size()) - 1;
@@ -410,8 +439,10 @@ void Builder::move_to_center() {
         item.to_world = then(item.to_world, move);
         item.limits = {item.limits.low - world.offset, item.limits.high - world.offset};
     }
-    for (Material& material : world.materials)
-        transform_pigment(material.pigment, move);
+    for (Material& material : world.materials) {
+        transform_texture(material.texture, move);
+        if (material.interior_texture) transform_texture(*material.interior_texture, move);
+    }
     for (WorldObject& object : world.objects) {
         object.paint.field_point -= world.offset;
         for (Seed& seed : object.paint.seeds) seed.position -= world.offset;
@@ -420,6 +451,12 @@ void Builder::move_to_center() {
     world.camera.mesh_offset = -world.offset;
     if (!world.camera.mesh) world.camera.location -= world.offset;
     world.atmosphere = scene.atmosphere;
+    for (Pigment& layer : world.atmosphere.sky.layers) {
+        Texture bearer;
+        std::swap(bearer.layers.front().pigment, layer);
+        for_each_pattern(bearer, [&](Pattern& pattern) { prepare_pattern(pattern); });
+        std::swap(bearer.layers.front().pigment, layer);
+    }
     for (Fog& fog : world.atmosphere.fogs) fog.offset -= glm::dot(world.offset, fog.up);
     for (LightSource light : scene.lights) {
         light.position -= world.offset;
@@ -487,10 +524,13 @@ World build_world(const Scene& scene, const Settings& settings) {
     builder.find_object_bounds(seen_bounds(builder.items, builder.solids));
     if (!scene.atmosphere.fogs.empty()) world.camera_solids = solids_about(scene.objects, scene.camera.location, false);
     world.ambient_light = scene.ambient_light;
+    world.irid_wavelength = scene.irid_wavelength;
     world.has_paint =
         std::any_of(world.objects.begin(), world.objects.end(), [](const WorldObject& o) { return o.npr; });
     world.has_specular = std::any_of(world.materials.begin(), world.materials.end(), is_specular);
     world.illumination = choose_illumination(scene, world, settings.photons);
+    world.caustics_apart = world.illumination != Illumination::photon_mapped && settings.photons.wanted;
+    world.ambient_glows = scene.povray && scene.version < 3.7;
     world.notes = std::move(builder.assets.notes);
     world.geometry = make_geometry(std::move(builder.items), builder.solids);
     return std::move(world);

@@ -48,6 +48,13 @@ Shape parse_bicubic_patch(Parser& p);
 // -------------------------------------------------------------------------------------------------
 
 Texture parse_texture(Parser& p, const Texture& start);
+void parse_texture_item(Parser& p, Texture& texture); // one item of the block; at least one token is taken
+BlendMap<Texture> parse_texture_map(Parser& p);
+// Lays a texture over what is there; replaces it if not `layered`, or where one of them can't be layered.
+void add_layer(Parser& p, Texture& below, const Texture& texture, bool layered);
+Normal parse_normal(Parser& p, const Normal& start);
+BlendMap<Normal> parse_normal_map(Parser& p);
+SlopeMap parse_slope_map(Parser& p);
 Pigment parse_pigment(Parser& p, const Pigment& start);
 void parse_pigment_item(Parser& p, Pigment& pigment); // one item of the block; at least one token is taken
 Finish parse_finish(Parser& p, const Finish& start);
@@ -55,7 +62,7 @@ Interior parse_interior(Parser& p, const Interior& start);
 SaidMaterial parse_material(Parser& p);
 ColorMap parse_color_map(Parser& p);
 BlendMap<Pigment> parse_pigment_map(Parser& p);
-ImagePattern parse_image_map(Parser& p);
+ImagePattern parse_image_map(Parser& p, double* bump_size = nullptr); // `bump_size` may stand there if not null
 bool skip_pattern(Parser& p); // one pattern or pattern modifier, where it picks from things that we lack
 
 // ---- patterns (parse_pattern.cpp), wherever they pick from: pigments, normals, textures, densities, functions
@@ -67,6 +74,11 @@ using ListReader = std::function<void(const Pattern&)>;
 bool parse_pattern(Parser& p, Pattern& pattern, const ListReader& read_list);
 // A word that shapes the pattern: turbulence, warp, waves, frequency, words of single patterns. Likewise.
 bool parse_pattern_modifier(Parser& p, Pattern& pattern);
+// The block behind `pattern`, in functions and images.
+Pattern parse_pattern_block(Parser& p);
+// With what the scene says at this place (noise, pictures) filled in: what is evaluated while the scene is read.
+Pattern prepared(Parser& p, Pattern pattern);
+Pigment prepared(Parser& p, Pigment pigment);
 bool parse_turbulence_word(Parser& p, Turbulence& turbulence); // octaves, omega, lambda
 void parse_warp(Parser& p, Pattern& pattern);                  // the block behind `warp`
 // The block of a map behind its word: a declared map, or `[position item] ...`, where `read` reads an item up to the

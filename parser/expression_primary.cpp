@@ -414,20 +414,6 @@ void fill_array(Parser& p, ArrayValue& array, std::size_t dimension, std::size_t
 
 } // namespace
 
-namespace {
-
-// `texture {...} texture {...}` is one texture of layers; the lowest one, which is opaque, stands for all.
-void skip_layers(Parser& p, const DeclaredBlock& block_value) {
-    if (!std::holds_alternative<Texture>(block_value)) return;
-    while (is(peek_operator(p), "texture"_kw)) {
-        const Token layer = peek(p);
-        warn(p, layer, "layers of textures are not supported: only the lowest one is used");
-        parse_declared_block(p);
-    }
-}
-
-} // namespace
-
 Value array_value(Parser& p) {
     const Token name = next(p);
     std::vector<int> dimensions;
@@ -470,10 +456,8 @@ Value parse_value(Parser& p) {
         } else if (at_string(p)) {
             return Value{parse_string(p)};
         } else if (!at_expression(p)) {
-            if (auto block_value = parse_declared_block(p)) {
-                skip_layers(p, *block_value);
+            if (auto block_value = parse_declared_block(p))
                 return Value{std::make_shared<const DeclaredBlock>(std::move(*block_value))};
-            }
         }
     }
     VectorValue number = parse_operand_expression(p, Angles::compare);

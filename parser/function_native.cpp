@@ -21,14 +21,16 @@ void parse_internal(Parser& p, Function& function) {
     const double number = parse_float(p);
     expect(p, ')', "to close `internal(`");
     const auto all = internal_functions();
-    const bool exists = number >= 0 && number < static_cast<double>(all.size()) && number == std::trunc(number);
+    const bool exists =
+        number >= 0 && number < static_cast<double>(all.size()) && number == std::trunc(number);
     const auto index = exists ? static_cast<std::size_t>(number) : 0;
     if (!exists || all[index].name.empty())
         fail(p, at_number, fmt::format("there is no internal function {}", number));
     if (!all[index].evaluate) function.unsupported = fmt::format("{}", all[index].name);
     function.parameters = all[index].parameters;
     for (int i = 0; i < function.parameters; ++i)
-        function.code.push_back({.kind = Instruction::Kind::argument, .index = static_cast<std::uint32_t>(i)});
+        function.code.push_back(
+            {.kind = Instruction::Kind::argument, .index = static_cast<std::uint32_t>(i)});
     function.code.push_back(
         {.kind = Instruction::Kind::internal, .index = static_cast<std::uint32_t>(index)});
     function.stack = function.parameters;
@@ -47,15 +49,26 @@ void parse_transform_function(Parser& p, Function& function) {
     };
 }
 
+// `pattern { ... }`: the value at the point.
+void parse_pattern_function(Parser& p, Function& function) {
+    next(p);
+    function.parameters = 3;
+    function.cost = 50;
+    auto pattern = std::make_shared<const Pattern>(prepared(p, parse_pattern_block(p)));
+    function.native = [pattern = std::move(pattern)](const double* a, double* results) {
+        results[0] = eval_pattern(*pattern, {Vec3(a[0], a[1], a[2]), Vec2(a[0], a[1])});
+    };
+}
+
 // `pigment { ... }`: the colour at the point.
 void parse_pigment_function(Parser& p, Function& function) {
     next(p);
     function.parameters = 3;
     function.results = 5;
     function.cost = 50;
-    auto pigment = std::make_shared<const Pigment>(parse_pigment(p, Pigment{}));
+    auto pigment = std::make_shared<const Pigment>(prepared(p, parse_pigment(p, Pigment{})));
     function.native = [pigment = std::move(pigment)](const double* a, double* results) {
-        const ColorFT color = eval_pigment(*pigment, SurfacePoint{Vec3(a[0], a[1], a[2]), Vec2(a[0], a[1])});
+        const ColorFT color = eval_pigment(*pigment, {Vec3(a[0], a[1], a[2]), Vec2(a[0], a[1])});
         for (int i = 0; i < 3; ++i) results[i] = color.rgb[i];
         results[3] = color.filter;
         results[4] = color.transmit;
@@ -82,8 +95,10 @@ bool parse_native(Parser& p, Function& function) {
     case "pigment"_kw:
         parse_pigment_function(p, function);
         return true;
-    case "spline"_kw:
     case "pattern"_kw:
+        parse_pattern_function(p, function);
+        return true;
+    case "spline"_kw:
         skip_body(p, function);
         return true;
     default:

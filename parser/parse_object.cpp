@@ -86,16 +86,17 @@ bool is_unsupported_object(const Token& word) {
 // ---- modifiers
 // --------------------------------------------------------------------------------------------------
 
-Texture& own_texture(Parser& p, Object& object) {
+// What `pigment`, `normal` and `finish` of an object change.
+TextureLayer& own_layer(Parser& p, Object& object) {
     if (!object.texture) object.texture = p.default_texture;
-    return *object.texture;
+    return object.texture->layers.back();
 }
 
-// A second texture lies on the first, as a layer: where it is opaque, it alone is seen.
-void add_texture(Parser& p, const Token& word, Object& object, bool layered) {
+// A second texture lies on the first, as a layer.
+void add_texture(Parser& p, Object& object) {
     const Texture texture = parse_texture(p, p.default_texture);
-    if (layered && is_see_through(texture.pigment))
-        warn_unsupported(p, word, "layered textures", "the lowest layer is drawn alone");
+    if (object.texture)
+        add_layer(p, *object.texture, texture, true);
     else
         object.texture = texture;
 }
@@ -107,25 +108,25 @@ void add_material(Parser& p, Object& object) {
     else
         material = parse_material(p);
     if (material.texture) object.texture = material.texture;
+    if (material.interior_texture) object.interior_texture = material.interior_texture;
     if (material.interior) object.interior = material.interior;
 }
 
 bool parse_texture_modifier(Parser& p, Object& object) {
-    const Token word = peek(p);
-    switch (keyword_of(word)) {
+    switch (keyword_of(peek(p))) {
     case "texture"_kw:
-        next(p), add_texture(p, word, object, object.texture.has_value());
+        next(p), add_texture(p, object);
         return true;
     case "pigment"_kw: {
         next(p);
-        Texture& texture = own_texture(p, object);
-        texture.pigment = parse_pigment(p, texture.pigment);
+        TextureLayer& layer = own_layer(p, object);
+        layer.pigment = parse_pigment(p, layer.pigment);
         return true;
     }
     case "finish"_kw: {
         next(p);
-        Texture& texture = own_texture(p, object);
-        texture.finish = parse_finish(p, texture.finish);
+        TextureLayer& layer = own_layer(p, object);
+        layer.finish = parse_finish(p, layer.finish);
         return true;
     }
     case "interior"_kw:
@@ -134,13 +135,14 @@ bool parse_texture_modifier(Parser& p, Object& object) {
     case "material"_kw:
         next(p), add_material(p, object);
         return true;
-    case "normal"_kw:
-        warn_unsupported(p, next(p), "normal", "surfaces are left smooth");
-        skip_block(p, "normal");
+    case "normal"_kw: {
+        next(p);
+        TextureLayer& layer = own_layer(p, object);
+        layer.normal = parse_normal(p, layer.normal.value_or(Normal{}));
         return true;
+    }
     case "interior_texture"_kw:
-        warn_unsupported(p, next(p), "interior_texture", "both sides are alike");
-        skip_block(p, "interior_texture");
+        next(p), object.interior_texture = parse_texture(p, p.default_texture);
         return true;
     case "uv_mapping"_kw:
         next(p), parse_optional_bool(p);
@@ -202,9 +204,11 @@ bool parse_flag(Parser& p, Object& object) {
         next(p), object.inverse = !object.inverse;
         return true;
     case "no_radiosity"_kw:
-        next(p), parse_optional_bool(p);
+        next(p), object.no_radiosity = parse_optional_bool(p);
         return true;
-    case "double_illuminate"_kw: // both sides are lit always
+    case "double_illuminate"_kw:
+        next(p), object.double_illuminate = parse_optional_bool(p);
+        return true;
     case "split_union"_kw:
     case "sturm"_kw:
     case "hierarchy"_kw:

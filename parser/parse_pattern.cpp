@@ -303,7 +303,7 @@ bool parse_fractal_word(Parser& p, Pattern& pattern) {
                                        [&](auto& k) { k.exponent = parse_int(p, 2, 33, "`exponent`"); });
     if (!exterior && !is(word, "interior"_kw)) return false;
     return word_of<FractalPattern>(p, pattern, [&](auto& k) {
-        (exterior ? k.exterior_type : k.interior_type) = parse_int(p, 0, 8, token_text(p, word));
+        (exterior ? k.exterior_type : k.interior_type) = parse_int(p, 0, 6, token_text(p, word));
         accept_comma(p);
         (exterior ? k.exterior_factor : k.interior_factor) = parse_float(p);
     });
@@ -357,6 +357,31 @@ bool parse_pattern_modifier(Parser& p, Pattern& pattern) {
     default:
         return parse_wave(p, pattern) || parse_fractal_word(p, pattern) || parse_word_of_kind(p, pattern);
     }
+}
+
+Pattern parse_pattern_block(Parser& p) {
+    Pattern pattern;
+    block(p, "pattern", [&] {
+        if (Transform transform; accept_transform(p, transform))
+            transform_pattern(pattern, transform);
+        else if (!parse_pattern(p, pattern, [](const Pattern&) {}) && !parse_pattern_modifier(p, pattern))
+            unexpected(p, "pattern",
+                       {"bozo"_kw, "granite"_kw, "gradient"_kw, "checker"_kw, "crackle"_kw, "turbulence"_kw,
+                        "translate"_kw, "rotate"_kw, "scale"_kw});
+    });
+    return pattern;
+}
+
+Pattern prepared(Parser& p, Pattern pattern) {
+    if (pattern.noise_generator == 0) pattern.noise_generator = p.scene.noise_generator;
+    if (pattern.number_of_waves == 0) pattern.number_of_waves = p.scene.number_of_waves;
+    return pattern;
+}
+
+Pigment prepared(Parser& p, Pigment pigment) {
+    pigment.pattern = prepared(p, std::move(pigment.pattern));
+    for (auto& entry : pigment.pigments) entry.value = prepared(p, std::move(entry.value));
+    return pigment;
 }
 
 } // namespace pnr

@@ -37,7 +37,7 @@ void parse_pigment_list(Parser& p, Pigment& pigment, const Pattern& pattern) {
     bool plain_only = true;
     while (pigments.size() < colors.size() && (at_color_expression(p) || at(p, "pigment"_kw))) {
         if (accept(p, "pigment"_kw)) {
-            pigments.push_back(parse_pigment(p, p.default_texture.pigment));
+            pigments.push_back(parse_pigment(p, p.default_texture.layers.back().pigment));
             plain_only = false;
         } else {
             colors[pigments.size()] = parse_color(p);
@@ -101,7 +101,7 @@ Pigment parse_pigment(Parser& p, const Pigment& start) {
 
 BlendMap<Pigment> parse_pigment_map(Parser& p) {
     return parse_blend_map<Pigment>(p, "pigment_map", [&] {
-        Pigment entry = p.default_texture.pigment;
+        Pigment entry = p.default_texture.layers.back().pigment;
         while (!at(p, ']') && !at(p, '}')) parse_pigment_item(p, entry);
         return entry;
     });
@@ -140,7 +140,7 @@ ColorMap parse_color_map(Parser& p) {
     return map;
 }
 
-ImagePattern parse_image_map(Parser& p) {
+ImagePattern parse_image_map(Parser& p, double* bump_size) {
     ImagePattern image;
     image.interpolate = false; // POV-Ray's default is the nearest pixel
     image.as_stored = p.scene.povray && (!p.in.version_said || p.in.version < 3.7); // as POV-Ray 3.7 does
@@ -174,6 +174,10 @@ ImagePattern parse_image_map(Parser& p) {
             image.map_type = static_cast<ImageMapType>(type);
             return;
         }
+        case "bump_size"_kw:
+            if (!bump_size) break;
+            next(p), *bump_size = parse_float(p);
+            return;
         case "once"_kw:
             next(p), image.once = true;
             return;
@@ -194,8 +198,9 @@ ImagePattern parse_image_map(Parser& p) {
             while (at_expression(p)) parse_float(p), accept_comma(p);
             return;
         default:
-            unexpected(p, "image_map", {"png"_kw, "jpeg"_kw, "map_type"_kw, "once"_kw, "interpolate"_kw});
+            break;
         }
+        unexpected(p, "image_map", {"png"_kw, "jpeg"_kw, "map_type"_kw, "once"_kw, "interpolate"_kw});
     });
     if (image.file.empty()) fail(p, opener, "`image_map` needs a picture, such as \"wood.png\"");
     return image;

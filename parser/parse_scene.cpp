@@ -25,7 +25,9 @@ void start_povray(Parser& p) {
     p.settings.render.max_trace_level = 5;
 }
 
-bool is_black(const Pigment& pigment) {
+bool is_black(const Texture& texture) {
+    if (!is_plain(texture) || texture.layers.size() > 1) return false;
+    const Pigment& pigment = texture.layers.front().pigment;
     return std::holds_alternative<UniformPattern>(pigment.pattern.kind) &&
            pnr::is_black(pigment.map.front().color.rgb) &&
            pigment.map.front().color.filter + pigment.map.front().color.transmit == 0;
@@ -40,7 +42,7 @@ bool has_texture(const Object& object) {
 bool give_default_texture(const Texture& texture, Object& object) {
     if (object.texture || (object.cutaway_textures && has_texture(object))) return false;
     if (object.shape) object.texture = texture;
-    bool black = object.shape && is_black(texture.pigment);
+    bool black = object.shape && is_black(texture);
     for (Object& child : object.children) black |= give_default_texture(texture, child);
     return black;
 }
@@ -133,7 +135,7 @@ void check_whole_scene(Parser& p) {
         warn(p, end, "the scene has no light", "add one: light_source { <5, 10, -10>, rgb 1 }");
 }
 
-// `texture {...} texture {...}`: layers, of which the lowest is kept unless one above hides it.
+// `texture {...} texture {...}`: layers.
 // peek_operator: the declaration must end before a directive behind it runs.
 Texture parse_layers(Parser& p) {
     Object bearer;
@@ -153,6 +155,7 @@ void parse_scene(Parser& p) {
         }
     }
     resolve_paint(p);
+    p.scene.version = p.in.version;
     check_whole_scene(p);
 }
 
@@ -164,10 +167,10 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
         return parse_layers(p);
     case "pigment"_kw:
         next(p);
-        return parse_pigment(p, p.default_texture.pigment);
+        return parse_pigment(p, p.default_texture.layers.back().pigment);
     case "finish"_kw:
         next(p);
-        return parse_finish(p, p.default_texture.finish);
+        return parse_finish(p, p.default_texture.layers.back().finish);
     case "interior"_kw:
         next(p);
         return parse_interior(p, Interior{});
@@ -177,6 +180,18 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
     case "color_map"_kw:
         next(p);
         return parse_color_map(p);
+    case "normal"_kw:
+        next(p);
+        return parse_normal(p, p.default_texture.layers.back().normal.value_or(Normal{}));
+    case "normal_map"_kw:
+        next(p);
+        return parse_normal_map(p);
+    case "slope_map"_kw:
+        next(p);
+        return parse_slope_map(p);
+    case "texture_map"_kw:
+        next(p);
+        return parse_texture_map(p);
     case "pigment_map"_kw:
         next(p);
         return parse_pigment_map(p);
@@ -208,12 +223,8 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
         break;
     }
     switch (keyword_of(word)) {
-    case "normal"_kw:
     case "media"_kw:
     case "density"_kw:
-    case "texture_map"_kw:
-    case "normal_map"_kw:
-    case "slope_map"_kw:
     case "density_map"_kw:
     case "warp"_kw:
         warn_unsupported(p, next(p), token_text(p, word, false), "it is left out");
@@ -226,22 +237,21 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
 
 void parse_default_block(Parser& p) {
     while (!at(p, '}') && !at_end(p)) {
-        const Token word = peek(p);
         Texture& texture = p.default_texture;
+        TextureLayer& layer = texture.layers.back();
         if (accept(p, "texture"_kw))
             texture = parse_texture(p, texture);
         else if (accept(p, "pigment"_kw))
-            texture.pigment = parse_pigment(p, texture.pigment);
+            layer.pigment = parse_pigment(p, layer.pigment);
         else if (accept(p, "finish"_kw))
-            texture.finish = parse_finish(p, texture.finish);
+            layer.finish = parse_finish(p, layer.finish);
         else if (accept(p, "npr"_kw))
             parse_npr(p, p.paint_defaults);
         else if (accept(p, "camera"_kw))
             skip_block(p, "camera");
-        else if (accept(p, "normal"_kw)) {
-            warn_unsupported(p, word, "normal", "surfaces are left smooth");
-            skip_block(p, "normal");
-        } else if (accept(p, "radiosity"_kw))
+        else if (accept(p, "normal"_kw))
+            layer.normal = parse_normal(p, layer.normal.value_or(Normal{}));
+        else if (accept(p, "radiosity"_kw))
             skip_block(p, "radiosity");
         else
             unexpected(p, "#default", {"texture"_kw, "pigment"_kw, "finish"_kw, "npr"_kw});

@@ -247,8 +247,8 @@ const char* type_name(const Value& value) {
     }
     static constexpr const char* blocks[] = {
         "object", "texture",   "pigment",   "finish",     "interior", "light source",
-        "camera", "transform", "npr block", "colour map", "pigment map", "material", "sky sphere", "fog", "rainbow",
-        "block without meaning here"};
+        "camera", "transform", "npr block", "colour map", "pigment map", "normal", "slope map",
+        "normal map", "texture map", "material", "sky sphere", "fog", "rainbow", "block without meaning here"};
     static_assert(std::size(blocks) == std::variant_size_v<DeclaredBlock>);
     return blocks[std::get<std::shared_ptr<const DeclaredBlock>>(value.data)->index()];
 }

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Patterns that number the regions of a tiling of space.
+#include "core/pattern_values.h"
+
+namespace pnr {
+
+namespace {
+
+bool odd(double whole) { return std::fmod(std::abs(whole), 2.0) == 1; }
+
+} // namespace
+
+double value_of(const CheckerPattern&, const SurfacePoint& at) {
+    const Vec3 cell = glm::floor(at.point + Vec3(at.tolerance));
+    return std::fmod(std::abs(cell.x + cell.y + cell.z), 2.0);
+}
+
+// Hexagons of edge 1 in the xz plane, one about the origin with corners on the x axis; no two of a colour
+// touch. The nearest centre is found by rounding in the three axes of the grid.
+double value_of(const HexagonPattern&, const SurfacePoint& at) {
+    const double q = at.point.x * (2.0 / 3), r = at.point.z / std::sqrt(3.0) - at.point.x / 3;
+    double i = std::round(q), j = std::round(r);
+    const double k = std::round(-q - r);
+    const double di = std::abs(i - q), dj = std::abs(j - r), dk = std::abs(k + q + r);
+    if (di > dj && di > dk)
+        i = -j - k;
+    else if (dj > dk)
+        j = -i - k;
+    const double number = std::fmod(2 * i + j, 3.0);
+    return number < 0 ? number + 3 : number;
+}
+
+// By the cube's face that the point looks through from the origin: x, y, z, -x, -y, -z.
+double value_of(const CubicPattern&, const SurfacePoint& at) {
+    const Vec3 a = glm::abs(at.point);
+    if (a.x >= a.y && a.x >= a.z) return at.point.x >= 0 ? 0 : 3;
+    if (a.y >= a.z) return at.point.y >= 0 ? 1 : 4;
+    return at.point.z >= 0 ? 2 : 5;
+}
+
+// Unit squares in the xz plane: 0 1 above 3 2 (x to the right, z down), again and again.
+double value_of(const SquarePattern&, const SurfacePoint& at) {
+    const bool x = odd(std::floor(at.point.x + at.tolerance)), z = odd(std::floor(at.point.z + at.tolerance));
+    return x ? (z ? 2 : 3) : (z ? 1 : 0);
+}
+
+// Triangles of edge 1 in the xz plane, one with its base from the origin to (1, 0), in rows that are three
+// cells long: each cell of the sheared grid is a triangle that points up and one that points down.
+double value_of(const TriangularPattern&, const SurfacePoint& at) {
+    const double row = at.point.z / std::sqrt(0.75) + at.tolerance;
+    const double column = at.point.x - at.point.z / std::sqrt(3.0) + at.tolerance;
+    const double number = std::fmod(std::floor(column) - std::floor(row), 3.0);
+    const auto cell = static_cast<std::size_t>(number < 0 ? number + 3 : number);
+    constexpr double up[] = {0, 4, 2}, down[] = {3, 5, 1};
+    return fraction(row) + fraction(column) < 1 ? up[cell] : down[cell];
+}
+
+double value_of(const BrickPattern& kind, const SurfacePoint& at) {
+    const Vec3 p = (at.point + Vec3(at.tolerance)) / kind.size, mortar = Vec3(kind.mortar) / kind.size;
+    if (fraction(p.y) <= mortar.y) return 0;
+    const double shift = fraction(p.y / 2) <= 0.5 ? 0 : 0.5; // of every other layer
+    if (fraction(p.x + shift) <= mortar.x) return 0;
+    return fraction(p.z + shift) <= mortar.z ? 0 : 1;
+}
+
+} // namespace pnr
