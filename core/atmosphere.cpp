@@ -72,13 +72,13 @@ ColorFT map_color(const std::vector<ColorStop>& map, double value) {
             glm::mix(low.color.transmit, high.color.transmit, t)};
 }
 
-// How much of the arc is there so far from its middle: 1 within arc_angle, 0 from falloff_angle on (full angles).
+// How much of the arc is there so far from its middle: 1 within falloff_angle, 0 from arc_angle on (full angles).
 double arc_share(const Rainbow& rainbow, Vec3 direction) {
-    if (rainbow.falloff_angle >= 360 && rainbow.arc_angle >= 360) return 1;
+    if (rainbow.falloff_angle >= 360) return 1;
     const Vec3 right = glm::normalize(glm::cross(rainbow.up, rainbow.direction));
     const Vec3 up = glm::cross(rainbow.direction, right);
     const double turn = std::abs(std::atan2(glm::dot(direction, right), glm::dot(direction, up))) * 180 / pi;
-    const double full = rainbow.arc_angle / 2, none = rainbow.falloff_angle / 2;
+    const double full = rainbow.falloff_angle / 2, none = rainbow.arc_angle / 2;
     if (turn <= full) return 1;
     if (turn >= none) return 0;
     const double t = (none - turn) / (none - full);
@@ -91,10 +91,11 @@ Color through_rainbow(const Rainbow& rainbow, const Ray& ray, double distance, C
     const double place = (std::acos(cosine) * 180 / pi - rainbow.angle) / rainbow.width + 0.5;
     if (!(place >= 0 && place <= 1)) return behind;
     const ColorFT color = map_color(rainbow.map, place);
-    const double left = std::exp(-std::min(distance, far_away) / rainbow.distance);
-    const double clear = std::clamp(static_cast<double>(color.filter) + color.transmit, 0.0, 1.0);
-    const auto share = static_cast<float>((1 - left) * (1 - clear) * arc_share(rainbow, ray.direction));
-    return glm::mix(behind, color.rgb, share);
+    const double seen = distance < infinity ? std::exp(-distance / rainbow.distance) : 0;
+    const double left = 1 - (1 - std::max(seen, static_cast<double>(color.transmit))) * arc_share(rainbow, ray.direction);
+    const auto added = static_cast<float>(1 - left);
+    return static_cast<float>(left) * behind * (Color(1) - color.filter * added * (Color(1) - color.rgb)) +
+           added * color.rgb;
 }
 
 } // namespace

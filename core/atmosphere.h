@@ -29,12 +29,12 @@ struct Fog {
     double lambda = 2, omega = 0.5, depth = 0.5; // depth: POV-Ray's turb_depth
 };
 
-// An arc of light of a distant shower: colours over the angle from `direction`.
+// Colours over the angle from `direction`; what is near hides them: 1/e of them is left at `distance`.
 struct Rainbow {
     Vec3 direction{0, 0, 1}, up{0, 1, 0}; // to the arc's centre; where its middle is
     double angle = 0, width = 0;          // degrees from the direction; of the band
     double distance = 1e7, jitter = 0;
-    double arc_angle = 180, falloff_angle = 180; // degrees of arc shown, and beyond which nothing is
+    double arc_angle = 360, falloff_angle = 360; // degrees: nothing is beyond the one, all within the other
     std::vector<ColorStop> map;
 };
 

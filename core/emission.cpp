@@ -104,7 +104,7 @@ bool said_target(const World& world) {
 // caustics are not all that is wanted, or something unbounded throws them.
 std::vector<Focus> find_targets(const World& world) {
     std::vector<Focus> targets;
-    if (world.illumination != Illumination::caustics) return targets;
+    if (!world.caustics_apart) return targets;
     const bool said = said_target(world);
     std::vector<char> throws(world.objects.size(), 0);
     for (const Surface& surface : world.surfaces) {
@@ -198,7 +198,7 @@ EmissionPlan plan_emission(const World& world, const PhotonSettings& settings) {
     const bool unbounded = has_unbounded(world);
     plan.focus = make_focus(world, unbounded);
     const std::vector<Focus> targets = find_targets(world);
-    plan.targeted = world.illumination == Illumination::caustics && said_target(world);
+    plan.targeted = world.caustics_apart && said_target(world);
     const std::int64_t wanted = photon_count(plan.focus, settings);
     double total = 0;
     std::vector<double> weights;

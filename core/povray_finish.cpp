@@ -6,6 +6,7 @@
 #include "core/area_light.h"
 #include "core/noise.h"
 #include "core/probe.h"
+#include "core/radiosity.h"
 #include "core/texture_mix.h"
 
 #include <algorithm>
@@ -45,7 +46,8 @@ struct Segment {
     int level = 0;
     Color throughput{1};
     Solids solids;
-    int unhollow = 0; // solids without `hollow` about the ray: there is no fog in them
+    int fogless = 0;       // solids without `hollow` that it is in: there is no fog in them
+    double* met = nullptr; // where to say how far it went
 };
 
 // A hit with all that POV-Ray's formulas ask of it.
@@ -110,8 +112,7 @@ Color light_through(const Shading& shading, const Hit& from, const Light& light,
         const Surface& surface = world.surfaces[hit->surface];
         if (surface.light >= 0) return Color{0};
         const Material& material = world.materials[static_cast<std::size_t>(surface.material)];
-        if (world.illumination == Illumination::caustics && material.photons.target &&
-            material.photons.refraction)
+        if (world.caustics_apart && material.photons.target && material.photons.refraction)
             return Color{0};
         const Point point = make_point(world, *hit, ray.direction);
         passed *= passed_light(point);
@@ -124,7 +125,7 @@ Color light_through(const Shading& shading, const Hit& from, const Light& light,
     return Color{0};
 }
 
-// The same from another point of the light.
+// The light as it is seen from another of its points.
 LightSample sample_toward(const Light& light, Vec3 position, Vec3 from) {
     LightSample sample = sample_light(light, position, Vec2{0.5});
     sample.point = from;
@@ -133,13 +134,17 @@ LightSample sample_toward(const Light& light, Vec3 position, Vec3 from) {
     return sample;
 }
 
-// Share of a light's colour that reaches the hit, over all its area and through its window.
+// Share of a light's colour that reaches the hit from all its area. Gathered light is content with one point of it.
 Color light_share(const Shading& shading, const Hit& hit, const Light& light, const LightSample& sample,
                   SampleState& state) {
-    if (!light.has_extent() || light.said.area->illuminates) return light_through(shading, hit, light, sample);
-    return area_mean(view_area(light, hit.position, state.rng.bits()), [&](Vec3 from) {
+    if (!light.has_extent() || light.is_emitter() || light.said.area->illuminates)
+        return light_through(shading, hit, light, sample);
+    const AreaView view = view_area(light, hit.position, state.rng.bits());
+    const auto from_point = [&](Vec3 from) {
         return light_through(shading, hit, light, sample_toward(light, hit.position, from));
-    });
+    };
+    if (state.bounces > 0) return from_point(area_point_at(view, state.rng.uniform2()));
+    return area_mean(view, from_point);
 }
 
 // ---- surfaces
@@ -212,13 +217,25 @@ Color lit_by(const Shading& shading, const Look& look, const Light& light, Sampl
 // Which solids the ray of the next segment is in.
 struct Within {
     Solids solids;
-    int unhollow = 0;
+    int fogless = 0;
 };
+
+// Light that the layer sends by itself; with `radiosity` what is gathered about the point stands for the ambient light, as
+// POV-Ray has it since 3.7, or beside it before.
+Color own_light(const Shading& shading, const Look& look, SampleState& state) {
+    const World& world = shading.world;
+    const Finish& finish = look.layer.finish;
+    Color light = finish.emission;
+    if (world.illumination != Illumination::radiosity || world.ambient_glows) light += finish.ambient * world.ambient_light;
+    if (world.illumination == Illumination::radiosity && finish.diffuse > 0)
+        light += static_cast<float>(finish.diffuse) * gathered_light(shading, look.point.hit, look.layer.normal, state);
+    return light;
+}
 
 Color follow(const Shading& shading, const Segment& segment, const Hit& hit, Vec3 direction, Color weight,
              RayKind kind, const Within& within, SampleState& state) {
     const Segment next{leave(hit, direction), kind, segment.level + 1, segment.throughput * weight, within.solids,
-                       within.unhollow};
+                       within.fogless};
     if (next.level > shading.settings.max_trace_level) return Color{0};
     if (max_component(next.throughput) < shading.settings.adc_bailout) return Color{0};
     return weight * trace(shading, next, state);
@@ -256,7 +273,7 @@ Vec3 bounce(const Point& point, Vec3 normal) {
 Color reflected_light(const Shading& shading, const Segment& segment, const Look& look, Color share, SampleState& state) {
     if (is_black(share)) return Color{0};
     const Color found = follow(shading, segment, look.point.hit, bounce(look.point, look.layer.normal), share,
-                               RayKind::specular, {segment.solids, segment.unhollow}, state);
+                               RayKind::specular, {segment.solids, segment.fogless}, state);
     const double exponent = look.layer.finish.reflection.exponent;
     if (exponent == 1) return found;
     const Color seen = found / glm::max(share, Color{1e-12f});
@@ -271,14 +288,14 @@ Color transmitted_light(const Shading& shading, const Segment& segment, const Po
     const Vec3 facing = glm::dot(normal, point.outgoing) < 0 ? -normal : normal;
     total = std::abs(crossing.eta - 1) > 1e-6 && !refract_direction(point.outgoing, facing, crossing.eta, direction);
     if (!total) {
-        Within within{crossing.solids, segment.unhollow};
+        Within within{crossing.solids, segment.fogless};
         const Surface& surface = shading.world.surfaces[point.hit.surface];
-        if (!surface.hollow && surface.closed) within.unhollow = std::max(0, within.unhollow + (point.inside ? -1 : 1));
+        if (!surface.hollow && surface.closed) within.fogless = std::max(0, within.fogless + (point.inside ? -1 : 1));
         // What `no_image` and `no_reflection` hide is hidden behind glass as it is before it.
         return follow(shading, segment, point.hit, direction, share, segment.kind, within, state);
     }
     return follow(shading, segment, point.hit, bounce(point, normal), Color{1}, RayKind::specular,
-                  {segment.solids, segment.unhollow}, state);
+                  {segment.solids, segment.fogless}, state);
 }
 
 struct LightParts {
@@ -305,8 +322,7 @@ LightParts layered_light(const Shading& shading, const Segment& segment, const P
             if (shines_on(light, world.surfaces[point.hit.surface])) lit += lit_by(shading, look, light, state);
         parts.direct += layer.above * lit;
         parts.caustic += layer.above * caustic_light(shading, look, state);
-        parts.glow += layer.above * layer.color * layer.opacity *
-                      (layer.finish.ambient * world.ambient_light + layer.finish.emission);
+        parts.glow += layer.above * layer.color * layer.opacity * own_light(shading, look, state);
         const Color mirror = mirror_share(look);
         mirrors |= !is_black(mirror);
         if (layer.finish.conserve_energy) kept *= glm::max(Color{0}, Color{1} - mirror);
@@ -339,10 +355,12 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
     ++state.rays;
     const World& world = shading.world;
     const std::optional<Hit> hit = closest_hit(world, segment.ray, segment.kind);
-    if (!hit)
-        return segment.unhollow > 0 ? sky_radiance(world, segment.ray.direction)
-                                  : through_atmosphere(world, segment.ray, infinity,
-                                                       sky_radiance(world, segment.ray.direction));
+    if (segment.met) *segment.met = hit ? hit->t : infinity;
+    const auto in_air = [&](Color seen) {
+        return segment.fogless > 0 ? seen
+                                   : through_atmosphere(world, segment.ray, hit ? hit->t : infinity, seen);
+    };
+    if (!hit) return in_air(sky_radiance(world, segment.ray.direction));
     const int emitter = world.surfaces[hit->surface].light;
     const Point point = make_point(world, *hit, segment.ray.direction);
     if (emitter >= 0)
@@ -353,8 +371,7 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
         state.caustic += parts.caustic;
         state.specular += parts.specular;
     }
-    const Color seen = sum_of(parts) * (point.inside ? interior_transmittance(point.material.interior, hit->t) : Color{1});
-    return segment.unhollow > 0 ? seen : through_atmosphere(world, segment.ray, hit->t, seen);
+    return in_air(sum_of(parts) * (point.inside ? interior_transmittance(point.material.interior, hit->t) : Color{1}));
 }
 
 } // namespace
@@ -368,8 +385,19 @@ double film_thickness(const Iridescence& irid, Vec3 point) {
 Color povray_radiance(const Shading& shading, const Ray& camera_ray, SampleState& state) {
     Segment segment;
     segment.ray = camera_ray;
-    segment.unhollow = shading.world.camera_solids;
+    segment.fogless = shading.world.camera_solids;
     return glm::max(trace(shading, segment, state), Color{0}); // crand and dark lights may take more than there is
+}
+
+Color povray_gather_ray(const Shading& shading, const Ray& ray, Color weight, double& distance, SampleState& state) {
+    Segment segment;
+    segment.ray = ray;
+    segment.kind = RayKind::gather;
+    segment.level = 1;
+    segment.throughput = weight;
+    segment.fogless = shading.world.camera_solids;
+    segment.met = &distance;
+    return glm::max(trace(shading, segment, state), Color{0});
 }
 
 } // namespace pnr

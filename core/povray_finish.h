@@ -13,5 +13,8 @@ Color povray_radiance(const Shading& shading, const Ray& camera_ray, SampleState
 
 // How thick a thin film is at a point of scene space, over what its `thickness` says.
 double film_thickness(const Iridescence& irid, Vec3 point);
+// Radiance against a ray of gathered light (radiosity.h); `weight` is the most that it can count in the picture. `distance`:
+// to what it meets.
+Color povray_gather_ray(const Shading& shading, const Ray& ray, Color weight, double& distance, SampleState& state);
 
 } // namespace pnr

@@ -4,6 +4,7 @@
 #include "core/image_io.h"
 #include "core/light.h"
 #include "core/path_trace.h"
+#include "core/radiosity.h"
 #include "core/sampling.h"
 #include "core/shade.h"
 
@@ -122,6 +123,7 @@ void add_photon_mapped_sample(const Job& job, int x, int y, int i, std::vector<K
         ++sums.plain.count;
         return;
     }
+    if (job.shading.gathered) state.pixel_width = pixel_width(job.gbuffer.view, Vec2(x + 0.5, y + 0.5));
     const Color radiance = checked(shade(job.shading, ray, state), counts.faults);
     PixelSums::Group& group = state.painted ? sums.painted : sums.plain;
     group.radiance += radiance;
@@ -311,7 +313,7 @@ void write_pixel(const Job& job, int x, int y, RenderResult& result) {
 // What the map is asked for: nothing where there is none, caustics alone in POV-Ray's `photons {}` scenes.
 void choose_gathers(Shading& shading, const PhotonSettings& photons) {
     shading.indirect.count = shading.caustic.count = 0;
-    if (shading.map.photons.empty() || shading.world.illumination == Illumination::raytraced) return;
+    if (shading.map.photons.empty()) return;
     const GatherSettings both = default_gather(shading.world, shading.map, photons);
     shading.caustic = caustic_gather(shading.map, both);
     if (shading.map.caustic.count == 0) shading.caustic.count = 0;
@@ -341,9 +343,13 @@ RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap&
                     std::optional<SampleRange> samples) {
     const int width = gbuffer.view.width, height = gbuffer.view.height;
     RenderResult result = empty_result(width, height, want_parts);
-    Shading shading{world, map, settings.render, {}, {}, want_parts};
+    Shading shading{world, map, settings.render, {}, {}, want_parts, nullptr, nullptr};
     choose_gathers(shading, settings.photons);
 
+    const bool gathers = world.illumination == Illumination::radiosity && settings.render.integrator == Integrator::photons;
+    if (gathers) shading.radiosity = &settings.radiosity;
+    const auto gathered = gathers ? make_gathered_light(shading, gbuffer.view, {}) : nullptr;
+    shading.gathered = gathered.get();
     // Samples that are given need no look at the neighbours.
     const SampleCounts counted =
         samples ? SampleCounts{samples->count, samples->count} : sample_counts(world, settings.render);

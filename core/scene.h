@@ -117,7 +117,7 @@ struct Object {
     std::optional<Interior> interior; // likewise
     std::optional<PhotonRoles> photons;
     std::optional<PaintWord> npr;
-    bool no_shadow = false, no_image = false, no_reflection = false, hollow = false, inverse = false;
+    bool no_shadow = false, no_image = false, no_reflection = false, no_radiosity = false, hollow = false, inverse = false;
     bool double_illuminate = false;
 };
 

@@ -166,7 +166,7 @@ struct Tracer {
         const PhotonPath path = flight.bounces == 0 ? PhotonPath::direct
                                 : flight.scattered  ? PhotonPath::indirect
                                                     : PhotonPath::caustic;
-        if (world.illumination == Illumination::caustics && path != PhotonPath::caustic) return;
+        if (world.caustics_apart && path != PhotonPath::caustic) return;
         Photon photon;
         photon.position = Vec3f(hit.position);
         photon.direction = Vec3f(flight.ray.direction);
@@ -188,7 +188,7 @@ struct Tracer {
     // POV-Ray's `reflection on` and `refraction on`, where caustics alone are wanted: an object that says one
     // of them throws caustics by that one only.
     bool caustic_allowed(const PhotonRoles& roles, Event event) const {
-        if (world.illumination != Illumination::caustics || (!roles.reflection && !roles.refraction))
+        if (!world.caustics_apart || (!roles.reflection && !roles.refraction))
             return true;
         return (event == Event::reflected && roles.reflection) ||
                (event == Event::refracted && roles.refraction);
@@ -241,7 +241,7 @@ struct Tracer {
         else
             flight.specular = true;
         // Caustics alone: light that a diffuse surface has scattered is not wanted.
-        if (flight.scattered && world.illumination == Illumination::caustics) return false;
+        if (flight.scattered && world.caustics_apart) return false;
         if (++flight.bounces > free_bounces) {
             if (numbers.rng.uniform() >= late_survival) return false;
             flight.flux /= late_survival;

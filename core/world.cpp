@@ -197,7 +197,7 @@ struct Inherited {
     Bounds limits{Vec3(-infinity), Vec3(infinity)}; // bounded_by
     int object = 0;
     int light_group = 0;
-    bool global_lights = true, hollow = false;
+    bool global_lights = true, hollow = false, no_radiosity = false;
     bool cutaway = false;
     bool unseen = false; // clips: they have no surface
     bool double_illuminate = false;
@@ -247,6 +247,7 @@ struct Builder {
         if (surface.no_image) item.hidden_from |= ray_bit(RayKind::camera);
         if (surface.no_reflection) item.hidden_from |= ray_bit(RayKind::specular);
         if (surface.no_shadow) item.hidden_from |= ray_bit(RayKind::shadow);
+        if (surface.no_radiosity) item.hidden_from |= ray_bit(RayKind::gather);
         const bool clear = surface.light < 0 && lets_light_through(world.materials[static_cast<std::size_t>(surface.material)]);
         if (surface.no_shadow || clear || bare) item.hidden_from |= ray_bit(RayKind::blocker);
         world.tinted_shadows |= !surface.no_shadow && (clear || bare);
@@ -269,6 +270,7 @@ struct Builder {
         from.double_illuminate |= object.double_illuminate;
         from.cutaway |= object.cutaway_textures;
         from.hollow |= object.hollow;
+        from.no_radiosity |= object.no_radiosity;
         if (object.light_group > 0) from.light_group = object.light_group, from.global_lights = object.global_lights;
         for (const Object& bound : object.bounds) from.limits = common(from.limits, object_bounds(bound));
         return from;
@@ -376,6 +378,7 @@ struct Builder {
         surface.light_group = from.light_group;
         surface.global_lights = from.global_lights;
         surface.hollow = from.hollow;
+        surface.no_radiosity = from.no_radiosity;
         surface.closed = bounds_a_solid(*object.shape);
         const Mesh* from_file = object.shape ? std::get_if<Mesh>(&*object.shape) : nullptr;
         const bool overruled = from_file && !from_file->file.empty() && from.texture; // a file's own textures
@@ -475,6 +478,12 @@ void Builder::move_to_center() {
     world.camera.mesh_offset = -world.offset;
     if (!world.camera.mesh) world.camera.location -= world.offset;
     world.atmosphere = scene.atmosphere;
+    for (Pigment& layer : world.atmosphere.sky.layers) {
+        Texture bearer;
+        std::swap(bearer.layers.front().pigment, layer);
+        for_each_pattern(bearer, [&](Pattern& pattern) { prepare_pattern(pattern); });
+        std::swap(bearer.layers.front().pigment, layer);
+    }
     for (Fog& fog : world.atmosphere.fogs) fog.offset -= glm::dot(world.offset, fog.up);
     for (LightSource light : scene.lights) {
         light.position -= world.offset;
@@ -548,6 +557,8 @@ World build_world(const Scene& scene, const Settings& settings) {
         std::any_of(world.objects.begin(), world.objects.end(), [](const WorldObject& o) { return o.npr; });
     world.has_specular = std::any_of(world.materials.begin(), world.materials.end(), is_specular);
     world.illumination = choose_illumination(scene, world, settings.photons);
+    world.caustics_apart = world.illumination != Illumination::photon_mapped && settings.photons.wanted;
+    world.ambient_glows = scene.povray && scene.version < 3.7;
     world.notes = std::move(builder.assets.notes);
     world.geometry = make_geometry(std::move(builder.items), builder.solids);
     return std::move(world);

@@ -50,7 +50,7 @@ struct Surface {
     int material = 0;
     int light = -1;    // >= 0: this is the emitter of that light
     int light_group = 0; // see Object
-    bool global_lights = true, hollow = false;
+    bool global_lights = true, hollow = false, no_radiosity = false;
     bool closed = true;  // it bounds a solid: who passes it goes in or out
     bool no_shadow = false, no_image = false, no_reflection = false;
 };
@@ -70,6 +70,8 @@ struct World {
     Illumination illumination = Illumination::raytraced;
     bool has_specular = false; // some surface reflects or refracts
     bool has_paint = false;    // some object is painted
+    bool caustics_apart = false; // photons bring caustics alone
+    bool ambient_glows = false;  // with radiosity, ambient terms stay as light of the surfaces' own
     bool tinted_shadows = false; // some surface that throws a shadow lets light through
     std::shared_ptr<const Geometry> geometry;
     std::vector<std::string> notes; // what was done to meshes and the like, for stats and the terminal
@@ -88,7 +90,8 @@ inline bool shines_on(const Light& light, const Surface& surface) {
 
 // Which flags hide a surface from a ray.
 // blocker: shadow rays as far as surfaces stop them that let no light through.
-enum class RayKind { camera, specular, shadow, photon, blocker };
+// gather: of radiosity.
+enum class RayKind { camera, specular, shadow, photon, blocker, gather };
 
 struct Hit {
     double t = infinity;   // in units of the ray's direction

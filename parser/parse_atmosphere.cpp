@@ -160,6 +160,10 @@ Rainbow parse_rainbow(Parser& p) {
                        {"direction"_kw, "angle"_kw, "width"_kw, "distance"_kw, "color_map"_kw, "arc_angle"_kw,
                         "falloff_angle"_kw, "up"_kw, "jitter"_kw});
     });
+    if (rainbow.falloff_angle > rainbow.arc_angle) {
+        if (rainbow.falloff_angle < 360) fail(p, opener, "`falloff_angle` of a rainbow must not be larger than `arc_angle`");
+        rainbow.falloff_angle = rainbow.arc_angle;
+    }
     if (glm::length(glm::cross(rainbow.direction, rainbow.up)) < 1e-9)
         fail(p, opener, "`direction` and `up` of a rainbow must not be parallel");
     return rainbow;

@@ -213,7 +213,7 @@ bool parse_flag(Parser& p, Object& object) {
         next(p), object.inverse = !object.inverse;
         return true;
     case "no_radiosity"_kw:
-        next(p), parse_optional_bool(p);
+        next(p), object.no_radiosity = parse_optional_bool(p);
         return true;
     case "double_illuminate"_kw:
         next(p), object.double_illuminate = parse_optional_bool(p);

@@ -155,6 +155,7 @@ void parse_scene(Parser& p) {
         }
     }
     resolve_paint(p);
+    p.scene.version = p.in.version;
     check_whole_scene(p);
 }
 
