@@ -19,6 +19,8 @@ void parse_scene(Parser& p);
 // If the next token starts a block that can be declared (object, texture, pigment, finish, interior,
 // light_source, camera, transform, npr ...), parses it. Called by parse_value for #declare.
 std::optional<DeclaredBlock> parse_declared_block(Parser& p);
+// Warnings for what the scene's own file declares and names nowhere else, in included files neither.
+void warn_unused(Parser& p);
 // The block of `#default { ... }`, behind its `{` and up to its `}`.
 void parse_default_block(Parser& p);
 

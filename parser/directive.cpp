@@ -166,10 +166,18 @@ void for_directive(Parser& p, const Token& opener) {
     }
     count_turn(p, opener);
     loop.body = p.in.frames.back().position;
+    loop.opener = token_at(p, opener.value).value;
     p.in.loops.push_back(loop);
 }
 
-void next_for_turn(Parser& p, const Token& opener) {
+// Is the innermost loop of this frame the one that `opener` opened? Not if an error made us come in from the side.
+bool runs(const Parser& p, double opener) {
+    const auto& loops = p.in.loops;
+    return loops.size() > p.in.frames.back().first_loop && loops.back().opener == opener;
+}
+
+void next_for_turn(Parser& p, const Token& opener, double index) {
+    if (!runs(p, index)) return;
     ForLoop& loop = p.in.loops.back();
     // The body may have changed the variable, as in POV-Ray.
     const Value* value = lookup(p.in, loop.variable);
@@ -193,14 +201,15 @@ void end_directive(Parser& p, const Token& end) {
         jump(p, end.value + 1);
         while_directive(p, opener);
     } else if (name == "for"_kw) {
-        next_for_turn(p, opener);
+        next_for_turn(p, opener, end.value);
     }
 }
 
 void break_directive(Parser& p, const Token& directive) {
     if (directive.value == no_jump) fail(p, directive, "`#break` outside of a loop or `#switch`");
     const Token end = token_at(p, directive.value);
-    if (static_cast<Keyword>(token_at(p, end.value).symbol) == "for"_kw) p.in.loops.pop_back();
+    if (static_cast<Keyword>(token_at(p, end.value).symbol) == "for"_kw && runs(p, end.value))
+        p.in.loops.pop_back();
     jump(p, directive.value + 1);
 }
 
@@ -332,6 +341,16 @@ void dispatch(Parser& p, const Token& directive) {
     }
 }
 
+// Puts the buffered token back, if it came from this frame.
+void unread(Parser& p) {
+    Expander& in = p.in;
+    TokenFrame& frame = in.frames.back();
+    if (in.buffered && frame.position > 0 && in.buffer.span.source == frame.source &&
+        in.buffer.span.begin == frame.tokens[frame.position - 1].begin)
+        --frame.position;
+    in.buffered = false;
+}
+
 // After a failure in a directive: leaves what was begun in it and skips to behind its `;`, or to the next
 // directive, or to the `}` of the block around it.
 void recover_directive(Parser& p, const Token& directive, std::size_t frames, std::size_t blocks,
@@ -340,7 +359,8 @@ void recover_directive(Parser& p, const Token& directive, std::size_t frames, st
     while (in.frames.size() > frames) pop_frame(p);
     in.blocks.resize(std::min(in.blocks.size(), blocks));
     in.brace_depth = brace_depth;
-    in.buffered = false;
+    unread(p);
+    if (in.resume) return;
     if (is_opener(static_cast<Keyword>(directive.symbol)) && directive.value != no_jump) {
         jump_behind_end(p, directive);
         return;
@@ -350,7 +370,12 @@ void recover_directive(Parser& p, const Token& directive, std::size_t frames, st
     int depth = 0;
     while (frame.position < frame.end) {
         const StoredToken& token = frame.tokens[frame.position];
-        if (kind_of(token) == TokenKind::directive && depth == 0) return;
+        if (kind_of(token) == TokenKind::directive) {
+            const bool opens = is_opener(static_cast<Keyword>(token.name.symbol)) && token.name.jump != no_jump;
+            if (depth == 0 || !opens) return;
+            jump_behind_end(p, unpack(token, frame.source, frame.chain)); // not into a loop from the side
+            continue;
+        }
         if (is(token, '}') && depth-- == 0) return;
         ++frame.position;
         if (is(token, '{')) ++depth;

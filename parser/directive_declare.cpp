@@ -66,6 +66,18 @@ Target take_target(Parser& p, const Token& directive) {
     return target;
 }
 
+// A local name that means another kind of thing outside: whoever reads the macro is misled.
+void warn_hidden(Parser& p, const Token& name, const Value& value) {
+    if (name.symbol >= p.in.symbols.size()) return;
+    const auto& bindings = p.in.symbols[name.symbol].bindings;
+    if (bindings.empty() || bindings.back().array || bindings.back().scope == p.in.frames.back().scope) return;
+    const Value& outside = bindings.back().cell->value;
+    const auto is_named_thing = [](const Value& v) { return v.data.index() > 3; }; // not numbers, vectors, strings
+    if (outside.data.index() == value.data.index() || !is_named_thing(outside)) return;
+    warn(p, name, fmt::format("this local `{}` hides {} of the same name", p.in.words.text(name.symbol),
+                              article_name(outside)));
+}
+
 void poison(Expander& in, Symbol symbol) {
     if (symbol < in.symbols.size()) in.symbols[symbol].poisoned = true;
 }
@@ -83,6 +95,7 @@ void declare_directive(Parser& p, const Token& directive, bool local) {
         p.in.hold.start = p.in.frames.back().position;
         Value value = stored_value(p, name, parse_value(p));
         if (!target.array) {
+            if (local) warn_hidden(p, name, value);
             assign_in(p, target.symbol, std::move(value), local, frame);
         } else {
             Value& element = target.array->elements[target.element];

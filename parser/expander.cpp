@@ -139,6 +139,7 @@ void fill(Parser& p, bool behind_operand) {
             push_part(p, token.span);
             continue;
         case TokenKind::invalid:
+            if (stored.name.jump == 0) stop(p, token, in.strings[token.symbol]);
             fail(p, token, in.strings[token.symbol]);
         default:
             break;

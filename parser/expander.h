@@ -62,6 +62,7 @@ struct TokenFrame {
 };
 
 struct ForLoop {            // a #for that is running
+    double opener = 0;      // index of its token
     std::uint32_t body = 0; // index of its first token
     Symbol variable = 0;
     double value = 0, last = 0, step = 1;
@@ -97,6 +98,7 @@ struct Expander {
     std::vector<Diagnostic>& diagnostics;
     const LoadOptions& options;
     std::string scene_folder;
+    std::uint32_t main_source = 0; // the scene's own file
 
     Words words;
     std::vector<std::string> strings;
@@ -126,6 +128,8 @@ struct Expander {
         std::make_shared<std::int64_t>(0); // in use; arrays give theirs back
     int errors = 0;
     std::unordered_set<std::uint64_t> reported; // hashes of (place, message)
+    std::unordered_set<std::uint64_t> broken_blocks; // hashes of the braces of blocks that held an error
+    bool resume = false; // a forgotten brace: all open blocks are left, the token that is next starts a statement
     std::vector<std::uint32_t> random_streams;
     double version = 3.7;
     bool version_said = false;

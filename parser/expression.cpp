@@ -2,6 +2,7 @@
 #include "parser/expression.h"
 
 #include "parser/quick_expression.h"
+#include "parser/suggest.h"
 
 #include <fmt/format.h>
 
@@ -128,6 +129,9 @@ bool parse_optional_bool(Parser& p) { return at_expression(p) ? parse_bool(p) : 
 
 Vec3 parse_vector(Parser& p) {
     const Token first = peek(p);
+    if (at_color(p))
+        fail(p, first, fmt::format("a position or direction is needed here, {} starts a colour", token_text(p, first)),
+             help_for_missing_value(p, first));
     VectorValue value = parse_conditional(p, Angles::bracket);
     if (value.size == 1) promote(value, 3);
     if (value.size == 2) promote(value, 3);
@@ -146,8 +150,13 @@ Vec2 parse_uv(Parser& p) {
 }
 
 ColorFT parse_color(Parser& p) {
+    const Token first = peek(p);
     VectorValue value = at_color(p) ? color_expression(p) : parse_conditional(p, Angles::bracket);
     promote(value, 5);
+    const double largest = std::max({value.v[0], value.v[1], value.v[2]});
+    if (largest > 10 && !p.in.blocks.empty() && p.in.blocks.back().what == "pigment")
+        warn(p, first, fmt::format("a surface's colour goes from 0 to 1, this has {}", largest),
+             largest <= 255 ? "colours of 0 to 255 are written rgb <255, 128, 0> / 255" : "");
     const auto f = [&](int i) { return static_cast<float>(value.v[i]); };
     return {{f(0), f(1), f(2)}, f(3), f(4)};
 }

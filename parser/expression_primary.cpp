@@ -7,6 +7,7 @@
 #include "parser/function.h"
 #include "parser/quick_expression.h"
 #include "parser/spline.h"
+#include "parser/suggest.h"
 
 #include <fmt/format.h>
 
@@ -18,17 +19,10 @@ namespace {
     SymbolEntry& entry = p.in.symbols[token.symbol];
     if (entry.poisoned) give_up(p, token); // reported where it was first met
     entry.poisoned = true;
-    std::vector<std::string_view> candidates;
-    for (Symbol s = 0; s < p.in.symbols.size(); ++s)
-        if ((is_keyword(s) &&
-             (is_number_builtin(static_cast<Keyword>(s)) || is_string_builtin(static_cast<Keyword>(s)))) ||
-            is_declared(p.in, s))
-            candidates.push_back(p.in.words.text(s));
     const std::string_view word = p.in.words.text(token.symbol);
-    const std::string_view nearest = nearest_word(word, candidates);
     std::string message = is_keyword(token.symbol) ? fmt::format("`{}` is no value", word)
                                                    : fmt::format("`{}` is not declared", word);
-    fail(p, token, std::move(message), nearest.empty() ? "" : fmt::format("did you mean `{}`?", nearest));
+    fail(p, token, std::move(message), help_for_unknown_name(p, token));
 }
 
 bool is_numeric(const Value& value) {
@@ -86,7 +80,10 @@ VectorValue operand_from(Parser& p, const Value& value, const Token& name) {
     if (const VectorValue* vector = std::get_if<VectorValue>(&value.data)) return *vector;
     fail(p, name,
          fmt::format("a number or vector is needed here, `{}` is {}", token_text(p, name, false),
-                     article_name(value)));
+                     article_name(value)),
+         std::holds_alternative<std::shared_ptr<ArrayValue>>(value.data)
+             ? fmt::format("an element of it is {}[index]", token_text(p, name, false))
+             : usage_of(value, token_text(p, name, false)));
 }
 
 VectorValue parse_parentheses(Parser& p) {
@@ -99,7 +96,8 @@ VectorValue parse_parentheses(Parser& p) {
         value = parse_operand_expression(p, Angles::compare);
     if (!at(p, ')')) {
         const Token found = peek(p);
-        fail(p, found, fmt::format("expected `)`, found {}", token_text(p, found)));
+        fail(p, found, fmt::format("expected `)`, found {}", token_text(p, found)),
+             is(found, ',') ? "a vector is written in < >: <0, 1, 0>" : "");
     }
     next(p);
     return value;
@@ -123,9 +121,7 @@ VectorValue parse_word(Parser& p) {
             return call_number_builtin(p, next(p));
         }
         if (is_string_builtin(word)) fail(p, token, "a number is needed here, this is a string");
-        if (is_reserved(token.symbol))
-            fail(p, token,
-                 fmt::format("expected a number or vector, found `{}`", p.in.words.text(token.symbol)));
+        if (is_reserved(token.symbol)) missing_value(p, token, "a number or vector");
     }
     next(p);
     unknown_identifier(p, token);
@@ -164,8 +160,7 @@ VectorValue parse_primary(Parser& p) {
     } else if (is(token, '(')) {
         value = parse_parentheses(p);
     } else {
-        const Token found = token;
-        fail(p, found, fmt::format("expected a number or vector, found {}", token_text(p, found)));
+        missing_value(p, Token(token), "a number or vector");
     }
     while (is(peek_operator(p), '.')) value = take_component(p, value);
     return value;
@@ -201,7 +196,7 @@ take_subscripts(Parser& p, const Token& name, const std::shared_ptr<ArrayValue>&
         const int size = array->dimensions[d];
         // POV-Ray truncates, after a nudge for sums like 0.1 * 30
         const double whole = std::trunc(index + 1e-8);
-        if (whole < 0 || whole >= size)
+        if (index < -1e-8 || whole >= size)
             fail(p, first,
                  fmt::format("index {} is outside of `{}`, which goes from 0 to {}", index,
                              token_text(p, name, false), size - 1));
@@ -358,7 +353,8 @@ std::string parse_string(Parser& p) {
             unknown_identifier(p, token);
         }
     }
-    fail(p, token, fmt::format("expected a string, found {}", token_text(p, token)));
+    fail(p, token, fmt::format("expected a string, found {}", token_text(p, token)),
+         "strings stand in quotes: \"text\"; str(number, 0, 3) makes one of a number");
 }
 
 // ---- values of any kind

@@ -40,6 +40,7 @@ struct Lexer {
     const char* end;
     bool keep_numbers;
     std::int64_t most;
+    const char* long_string = nullptr; // the first string that runs over several lines
 };
 
 StoredToken& add(Lexer& lexer, TokenKind kind, const char* from, Symbol symbol) {
@@ -150,6 +151,21 @@ void unescape(Lexer& lexer, std::string& out) {
     }
 }
 
+// Where the last string is never closed, an earlier one that runs over several lines probably lacks its end, and
+// what was read as text since then is none.
+void blame_long_string(Lexer& lexer) {
+    if (lexer.long_string == nullptr) return;
+    const auto begin = static_cast<std::uint32_t>(lexer.long_string - lexer.begin);
+    for (StoredToken& token : lexer.tokens) {
+        if (token.begin != begin) continue;
+        lexer.strings.emplace_back("this string runs over several lines, and the file's last one is never closed: is a "
+                                   "closing `\"` missing here?");
+        token.kind = static_cast<std::uint32_t>(TokenKind::invalid) & 15;
+        token.name = {static_cast<Symbol>(lexer.strings.size() - 1), 0};
+        token.length = 1;
+    }
+}
+
 void lex_string(Lexer& lexer) {
     const char* from = lexer.at++;
     std::string text;
@@ -162,11 +178,13 @@ void lex_string(Lexer& lexer) {
     }
     if (lexer.at == lexer.end) {
         lexer.at = from + 1;
+        blame_long_string(lexer);
         add_invalid(lexer, from, "the string opened here is never closed");
         lexer.at = lexer.end;
         return;
     }
     ++lexer.at;
+    if (lexer.long_string == nullptr && text.find('\n') != std::string::npos) lexer.long_string = from;
     lexer.strings.push_back(std::move(text));
     add(lexer, TokenKind::string, from, static_cast<Symbol>(lexer.strings.size() - 1));
 }
@@ -196,6 +214,11 @@ void lex_word(Lexer& lexer) {
     add(lexer, TokenKind::word, from, lexer.words.intern(american(word)));
 }
 
+// Other languages' words for #end. They are taken for it, so that what they close is closed.
+bool is_foreign_end(std::string_view word) {
+    return word == "endif" || word == "endwhile" || word == "endfor" || word == "endmacro" || word == "endswitch";
+}
+
 void lex_directive(Lexer& lexer) {
     const char* from = lexer.at++;
     while (lexer.at < lexer.end && std::strchr(" \t\r\n", *lexer.at) != nullptr && *lexer.at != '\0')
@@ -207,18 +230,87 @@ void lex_directive(Lexer& lexer) {
         add_invalid(lexer, from, "`#` must be followed by the name of a directive");
         return;
     }
-    const Symbol name = lexer.words.intern({word, static_cast<std::size_t>(lexer.at - word)});
-    add(lexer, TokenKind::directive, from, name);
+    const std::string_view text(word, static_cast<std::size_t>(lexer.at - word));
+    const bool ends = is_foreign_end(text);
+    add(lexer, TokenKind::directive, from, lexer.words.intern(ends ? "end" : text));
+    if (ends) add_invalid(lexer, from, fmt::format("there is no directive `#{}`: `#end` closes all of them", text));
 }
 
 std::string invalid_character(char c) {
     const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x20 && byte < 0x7f) return std::string("the character `") + c + "` has no meaning here";
-    const char* digits = "0123456789abcdef";
-    return std::string("the byte 0x") + digits[byte >> 4] + digits[byte & 15] + " has no meaning in a scene";
+    if (c == '%') return "the character `%` has no meaning here: the remainder is mod(a, b)";
+    if (byte >= 0x20 && byte < 0x7f) return fmt::format("the character `{}` has no meaning here", c);
+    return fmt::format("the byte 0x{:02x} has no meaning in a scene", byte);
+}
+
+// Signs of word processors that look like those of the language.
+std::string_view plain_sign(unsigned code) {
+    switch (code) {
+    case 0x201c: // quotation marks
+    case 0x201d:
+    case 0x201e:
+    case 0x00ab:
+    case 0x00bb:
+        return "\"";
+    case 0x2010: // hyphens, dashes, minus
+    case 0x2011:
+    case 0x2012:
+    case 0x2013:
+    case 0x2014:
+    case 0x2212:
+        return "-";
+    case 0x00d7:
+    case 0x22c5:
+        return "*";
+    case 0x00f7:
+        return "/";
+    case 0x2264:
+        return "<=";
+    case 0x2265:
+        return ">=";
+    case 0x2260:
+        return "!=";
+    case 0x00a0:
+    case 0x2009:
+    case 0x202f:
+    case 0x3000:
+        return " ";
+    default:
+        return {};
+    }
+}
+
+// A character of UTF-8 beyond ASCII: its code and length; length 1 and code 0 if the bytes are none.
+std::pair<unsigned, std::ptrdiff_t> decode_utf8(const char* at, const char* end) {
+    const auto byte = [&](std::ptrdiff_t i) { return static_cast<unsigned>(static_cast<unsigned char>(at[i])); };
+    const std::ptrdiff_t length = byte(0) >= 0xf0 ? 4 : byte(0) >= 0xe0 ? 3 : byte(0) >= 0xc2 ? 2 : 1;
+    if (length == 1 || byte(0) > 0xf4 || end - at < length) return {0, 1};
+    unsigned code = byte(0) & (0xffu >> (length + 1));
+    for (std::ptrdiff_t i = 1; i < length; ++i) {
+        if ((byte(i) & 0xc0) != 0x80) return {0, 1};
+        code = code << 6 | (byte(i) & 0x3f);
+    }
+    return {code, length};
+}
+
+void lex_foreign(Lexer& lexer) {
+    const char* from = lexer.at;
+    const auto [code, length] = decode_utf8(from, lexer.end);
+    const std::string_view character(from, static_cast<std::size_t>(length));
+    // A run of the same is one error.
+    do lexer.at += length;
+    while (lexer.end - lexer.at >= length && std::string_view(lexer.at, character.size()) == character);
+    if (code == 0) return add_invalid(lexer, from, invalid_character(*from));
+    const std::string_view plain = plain_sign(code);
+    if (plain == " ")
+        return add_invalid(lexer, from, fmt::format("this space is the character U+{:04X}: a plain one is needed", code));
+    std::string message = fmt::format("the character `{}` (U+{:04X}) has no meaning in a scene", character, code);
+    if (!plain.empty()) message += fmt::format(": is a plain `{}` meant?", plain);
+    add_invalid(lexer, from, std::move(message));
 }
 
 void lex_punctuation(Lexer& lexer) {
+    if (static_cast<unsigned char>(*lexer.at) >= 0x80) return lex_foreign(lexer);
     const char* from = lexer.at;
     const char c = *lexer.at++;
     if (std::strchr("{}()[]<>,;:.?=!+-*/&|^", c) == nullptr || c == '\0') {
@@ -299,7 +391,25 @@ void lex_token(Lexer& lexer) {
     }
 }
 
+// What a text of another encoding starts with; empty: it is none that is known.
+std::string_view foreign_encoding(std::string_view text) {
+    if (text.starts_with(std::string_view("\xff\xfe\0\0", 4)) || text.starts_with(std::string_view("\0\0\xfe\xff", 4)))
+        return "UTF-32";
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) return "UTF-16";
+    if (text.size() >= 4 && text[0] != '\0' && text[1] == '\0' && text[2] != '\0' && text[3] == '\0') return "UTF-16";
+    if (text.starts_with("\x7f" "ELF") || text.starts_with("\x89PNG") || text.starts_with("\xff\xd8\xff") ||
+        text.starts_with("PK\x03\x04") || text.starts_with("\x1f\x8b"))
+        return "no text at all";
+    return {};
+}
+
 void lex_all(Lexer& lexer) {
+    const std::string_view encoding = foreign_encoding({lexer.at, static_cast<std::size_t>(lexer.end - lexer.at)});
+    if (lexer.at == lexer.begin && !encoding.empty()) {
+        lexer.at += 2;
+        add_invalid(lexer, lexer.begin, fmt::format("this file is {}: scenes are plain text in UTF-8 or ASCII", encoding));
+        lexer.at = lexer.end;
+    }
     if (lexer.at == lexer.begin && std::string_view(lexer.at, lexer.end).starts_with("\xef\xbb\xbf"))
         lexer.at += 3;
     while (lexer.at < lexer.end) {
@@ -363,6 +473,7 @@ void pair_directives(std::vector<StoredToken>& tokens, std::vector<std::string>&
         strings.push_back("`#" + std::string(keyword_text(static_cast<Keyword>(opener.name.symbol))) +
                           "` opened here is never closed by `#end`");
         opener.kind = static_cast<std::uint32_t>(TokenKind::invalid) & 15;
+        opener.name.jump = 0; // nothing behind it can be trusted
         opener.name.symbol = static_cast<Symbol>(strings.size() - 1);
     }
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -116,6 +117,13 @@ std::string nearest_file(const Expander& in, const std::string& name, bool inclu
                  "the file \"{}\" lies outside of the scene's folder and the library, and is not read", name),
              "-L FOLDER adds a folder to the library");
     const std::string nearest = nearest_file(p.in, name, includes);
+    constexpr std::size_t longest = 100;
+    const std::size_t shown = std::min({name.find('\n'), name.size(), longest});
+    if (shown < name.size())
+        fail(p, at, fmt::format("there is no file \"{}...\"", name.substr(0, shown)), "is its closing `\"` missing?");
+    for (const fs::path& folder : search_folders(p.in))
+        if (std::error_code error; fs::is_directory(folder / name, error))
+            fail(p, at, fmt::format("\"{}\" is a folder, a file is needed", name));
     fail(p, at, fmt::format("there is no file \"{}\"", name),
          nearest.empty() ? "looked in the scene's folder and the library; -L FOLDER adds a folder"
                          : fmt::format("did you mean \"{}\"?", nearest));
@@ -198,6 +206,44 @@ std::uint32_t open_include(Parser& p, const Token& at, const std::string& name) 
     const Found installed = find_in(in, povray_folders(), name);
     if (!installed.path.empty()) return add_file(p, at, installed.path);
     fail_missing(p, at, name, true, found.refused || installed.refused);
+}
+
+namespace {
+
+// Is there `#declare NAME` or `#macro NAME` in the text?
+bool declares(std::string_view text, std::string_view name) {
+    const auto in_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    for (std::size_t at = text.find(name); at != std::string_view::npos; at = text.find(name, at + 1)) {
+        const std::size_t end = at + name.size();
+        if (end < text.size() && in_word(text[end])) continue;
+        std::size_t before = at;
+        while (before > 0 && (text[before - 1] == ' ' || text[before - 1] == '\t')) --before;
+        const std::string_view front = text.substr(0, before);
+        if (before < at && (front.ends_with("declare") || front.ends_with("macro"))) return true;
+    }
+    return false;
+}
+
+} // namespace
+
+std::string include_that_declares(const Parser& p, std::string_view name) {
+    if (name.size() < 3) return {};
+    const auto is_read = [&](const std::string& path) { return p.in.files.contains(path); };
+    for (const EmbeddedFile& file : embedded_files())
+        if (file.name.ends_with(".inc") && declares(file.text, name))
+            return is_read(std::string(embedded_prefix) + std::string(file.name)) ? "" : std::string(file.name);
+    std::string found;
+    for (const fs::path& folder : povray_folders()) {
+        std::error_code error;
+        for (fs::directory_iterator entry(folder, error), last; !error && entry != last; entry.increment(error)) {
+            if (entry->path().extension() != ".inc") continue;
+            const auto text = read_text(entry->path().string(), 1'000'000);
+            const std::string file = entry->path().filename().string();
+            if (text && declares(*text, name) && !is_read(entry->path().string()) && (found.empty() || file < found))
+                found = file;
+        }
+    }
+    return found;
 }
 
 fs::path writable_path(const Expander& in, const std::string& name) {

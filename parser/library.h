@@ -32,6 +32,10 @@ std::filesystem::path writable_path(const Expander& in, const std::string& name)
 // Writes all that #fopen opened for writing and that may be written. Throws FileError.
 void write_files(const Expander& in);
 
+// The library's file that declares this name, a variable or a macro, "colors.inc"; empty: none, or it is read
+// already.
+std::string include_that_declares(const Parser& p, std::string_view name);
+
 bool file_exists(Parser& p, const std::string& name);
 
 // Folders of POV-Ray's includes on this machine, e.g. /usr/share/povray-3.7/include; newest first.

@@ -98,6 +98,7 @@ LoadResult load_scene_text(std::string text, const std::string& name, const Load
     in.scene_folder = folder.empty() ? std::string(".") : folder.string();
     Parser p{in, scene, result.settings, {}, {}, {}};
     const std::uint32_t source = in.sources.add(name, std::move(text));
+    in.main_source = source;
     try {
         in.symbols.resize(in.words.texts.size());
         declare_givens(p);

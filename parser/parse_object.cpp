@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Object statements: the word, the shape's own items, then modifiers in any order.
 #include "parser/blocks.h"
+#include "parser/suggest.h"
 
 #include <algorithm>
 #include <array>
@@ -307,7 +308,19 @@ Object parse_shape_statement(Parser& p, const Token& word, ShapeParser parse_sha
         } else if (!parse_object_modifier(p, object))
             unexpected_in_object(p, what);
     });
+    if (!started) error(p, word, "`" + what + "` is empty", "it needs its measures: " + syntax_of(what));
     return object;
+}
+
+// Neither an object nor the name of one.
+[[noreturn]] void missing_object(Parser& p) {
+    const Token found = peek(p);
+    if (found.kind == TokenKind::word && !is_keyword(found.symbol)) {
+        if (!is_declared(p.in, found.symbol)) take_variable(p); // says so
+        unexpected(p, "object", {});
+    }
+    fail(p, found, "`object` needs a declared object's name, or an object, found " + token_text(p, found),
+         "declare it first: #declare Name = sphere { ... }");
 }
 
 // `object { Name ... }` or `object { sphere {...} ... }`.
@@ -325,8 +338,7 @@ Object parse_object_reference(Parser& p) {
             else if (const auto* light = accept_declared<LightSource>(p))
                 object.lights.push_back(*light);
             else
-                fail(p, peek(p), "`object` needs a declared object's name, or an object",
-                     "declare it first: #declare Name = sphere { ... }");
+                missing_object(p);
         } else if (!parse_object_modifier(p, object))
             unexpected_in_object(p, "object");
     });
@@ -355,6 +367,14 @@ Combination combination_of(const Token& word) {
     return is(word, "difference"_kw) ? Combination::differ : Combination::unite;
 }
 
+// What cannot be meant: nothing in it, or nothing to take away.
+void check_group(Parser& p, const Token& word, const Object& group) {
+    const std::size_t parts = group.children.size() + group.lights.size();
+    if (parts == 0) warn(p, word, token_text(p, word) + " is empty: there is nothing in it");
+    if (parts == 1 && (is(word, "difference"_kw) || is(word, "intersection"_kw)))
+        warn(p, word, token_text(p, word) + " has only one object: nothing is cut");
+}
+
 // union, merge, intersection, difference, light_group.
 Object parse_group(Parser& p, const Token& word) {
     Object group;
@@ -368,6 +388,7 @@ Object parse_group(Parser& p, const Token& word) {
         else
             unexpected_in_object(p, what);
     });
+    check_group(p, word, group);
     return group;
 }
 

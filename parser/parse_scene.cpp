@@ -147,9 +147,10 @@ Texture parse_layers(Parser& p) {
 
 void parse_scene(Parser& p) {
     if (ends_with_pov(p.scene.file)) start_povray(p);
-    while (!at_end(p)) {
+    for (bool ended = false; !ended;) {
         try {
-            parse_scene_item(p);
+            ended = at_end(p); // a macro may fail here already
+            if (!ended) parse_scene_item(p);
         } catch (const ParseFailure&) {
             recover_statement(p);
         }
@@ -157,6 +158,7 @@ void parse_scene(Parser& p) {
     resolve_paint(p);
     p.scene.version = p.in.version;
     check_whole_scene(p);
+    warn_unused(p);
 }
 
 std::optional<DeclaredBlock> parse_declared_block(Parser& p) {

@@ -38,8 +38,11 @@ Shape parse_sphere(Parser& p) {
 }
 
 Shape parse_box(Parser& p) {
+    const Token at = peek(p);
     const Vec3 a = parse_item(p);
     const Vec3 b = parse_vector(p);
+    if (a.x == b.x || a.y == b.y || a.z == b.z)
+        warn(p, at, std::string("this box has no thickness along ") + (a.x == b.x ? "x" : a.y == b.y ? "y" : "z"));
     return Box{glm::min(a, b), glm::max(a, b)};
 }
 

@@ -2,6 +2,7 @@
 #include "parser/parser.h"
 
 #include "parser/expander.h"
+#include "parser/suggest.h"
 
 #include <fmt/format.h>
 
@@ -38,6 +39,50 @@ void accept_comma(Parser& p) {
     if (is(peek_operator(p), ',')) next(p);
 }
 
+namespace {
+
+std::uint64_t place_hash(const Span& span, std::string_view message) {
+    std::uint64_t h = 1469598103934665603ull; // FNV-1a
+    for (const char c : message) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+    return h ^ (static_cast<std::uint64_t>(span.source) << 40) ^ span.begin;
+}
+
+// Statements that stand in no block but those that hold objects.
+bool starts_statement(const Token& token) {
+    switch (keyword_of(token)) {
+    case "camera"_kw:
+    case "light_source"_kw:
+    case "global_settings"_kw:
+    case "background"_kw:
+    case "sphere"_kw:
+    case "box"_kw:
+    case "plane"_kw:
+    case "cylinder"_kw:
+    case "cone"_kw:
+    case "torus"_kw:
+    case "mesh"_kw:
+    case "mesh2"_kw:
+    case "union"_kw:
+    case "merge"_kw:
+    case "difference"_kw:
+    case "intersection"_kw:
+    case "object"_kw:
+    case "sky_sphere"_kw:
+        return true;
+    default:
+        return false;
+    }
+}
+
+} // namespace
+
+bool starts_line(const Parser& p, const Token& token) {
+    const std::string& text = p.in.sources.files[token.span.source].text;
+    std::size_t at = token.span.begin;
+    while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '\t')) --at;
+    return at == 0 || text[at - 1] == '\n' || text[at - 1] == '\r';
+}
+
 // ---- blocks
 // ---------------------------------------------------------------------------------------------------------
 
@@ -71,6 +116,11 @@ bool close_block(Parser& p) {
 void recover_block(Parser& p, std::size_t level) {
     Expander& in = p.in;
     in.blocks.resize(level);
+    in.broken_blocks.insert(place_hash(in.blocks.back().brace.span, {}));
+    if (in.resume) {
+        in.blocks.pop_back();
+        throw ParseFailure{};
+    }
     const std::int64_t depth = in.blocks.back().depth;
     bool at_the_end = false;
     while (!at_the_end) {
@@ -94,20 +144,23 @@ void recover_block(Parser& p, std::size_t level) {
 void recover_statement(Parser& p) {
     Expander& in = p.in;
     in.blocks.clear();
-    const std::int64_t depth = in.brace_depth;
+    if (in.resume) { // the statement is next
+        in.resume = false;
+        in.brace_depth = 0;
+        return;
+    }
     bool taken = false;
     for (;;) {
         try {
             if (at_end(p)) return;
-            // The next statement starts with a word behind a closed block, or on a line of its own after a
-            // `;`.
+            // The next statement starts behind a closed block or a `;`, or with its word on a new line.
+            if (taken && in.brace_depth <= 0 && starts_statement(peek(p)) && starts_line(p, peek(p))) return;
             const Token token = next(p);
             taken = true;
             if (in.brace_depth <= 0 && (is(token, '}') || is(token, ';'))) {
                 in.brace_depth = 0;
                 return;
             }
-            (void)depth;
         } catch (const ParseFailure&) {
             in.buffered = false;
             if (taken && in.brace_depth <= 0) return;
@@ -124,12 +177,19 @@ namespace {
 std::vector<Note> chain_notes(const Expander& in, std::uint32_t chain) {
     constexpr std::size_t shown_at_each_end = 4;
     std::vector<Note> notes;
-    for (; chain != 0; chain = in.calls[chain].parent) {
+    while (chain != 0) {
         const Call& call = in.calls[chain];
+        int times = 0; // a recursion calls at one place again and again
+        do {
+            ++times;
+            chain = in.calls[chain].parent;
+        } while (chain != 0 && in.calls[chain].at.source == call.at.source &&
+                 in.calls[chain].at.begin == call.at.begin);
         const bool file = call.macro == static_cast<Symbol>("include"_kw);
-        notes.push_back(
-            {call.at,
-             file ? "included here" : fmt::format("in macro `{}`, called here", in.words.text(call.macro))});
+        std::string text =
+            file ? "included here" : fmt::format("in macro `{}`, called here", in.words.text(call.macro));
+        if (times > 1) text += fmt::format(" ({} times)", times);
+        notes.push_back({call.at, std::move(text)});
     }
     if (notes.size() > 2 * shown_at_each_end) {
         const std::size_t left_out = notes.size() - 2 * shown_at_each_end;
@@ -140,19 +200,19 @@ std::vector<Note> chain_notes(const Expander& in, std::uint32_t chain) {
     return notes;
 }
 
-std::uint64_t place_hash(const Span& span, std::string_view message) {
-    std::uint64_t h = 1469598103934665603ull; // FNV-1a
-    for (const char c : message) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-    return h ^ (static_cast<std::uint64_t>(span.source) << 40) ^ span.begin;
+bool is_reported(const Expander& in, const Token& at, std::string_view message) {
+    return in.reported.contains(place_hash(at.span, message));
 }
 
-// The same words about the same place are said once, however often a loop comes by.
+// The same words about the same place are said once, however often a loop comes by. A block that holds an error is
+// not blamed for what it lacks.
 void record(Parser& p, Severity severity, const Token& at, std::string message, std::string help,
             std::vector<Note> notes = {}) {
     Expander& in = p.in;
     // A warning behind an error may be that error's echo ("no pigment" where the pigment could not be read).
     if (severity == Severity::warning && (in.errors > 0 || in.used.warnings >= in.options.budgets.warnings))
         return;
+    if (in.broken_blocks.contains(place_hash(at.span, {}))) return;
     if (!in.reported.insert(place_hash(at.span, message)).second) return;
     for (Note& note : chain_notes(in, at.chain)) notes.push_back(std::move(note));
     in.diagnostics.push_back({severity, at.span, std::move(message), std::move(notes), std::move(help)});
@@ -188,7 +248,7 @@ void stop(Parser& p, const Token& at, std::string message, std::string help) {
 
 void stop_at_limit(Parser& p, const Token& at, std::int64_t Budgets::*budget, std::string message,
                    std::string question) {
-    if (!question.empty()) question += "; ";
+    if (!question.empty()) question += question.back() == '?' ? " " : "; ";
     stop(p, at, std::move(message), question + limit_help(p.in.options.budgets, budget));
 }
 
@@ -200,31 +260,52 @@ void warn(Parser& p, const Token& at, std::string message, std::string help) {
     record(p, Severity::warning, at, std::move(message), std::move(help));
 }
 
+namespace {
+
+// A statement's word on a new line inside a block that cannot hold one: the block's `}` was forgotten. The
+// statement is read as one, after the blocks around it are left.
+void check_forgotten_brace(Parser& p, const Token& token, std::string_view inside) {
+    if (p.in.blocks.empty() || !starts_statement(token) || !starts_line(p, token)) return;
+    const OpenBlock& open = p.in.blocks.back();
+    if (open.brace.span.source != token.span.source) return;
+    record(p, Severity::error, token,
+           fmt::format("`{}` is never closed: expected `}}` before {}", inside, token_text(p, token)), {},
+           {{open.brace.span, "its `{` is here"}});
+    p.in.resume = true;
+    give_up(p, token);
+}
+
+} // namespace
+
 void unexpected(Parser& p, std::string_view inside, std::initializer_list<Keyword> allowed) {
     const Token token = peek(p);
-    std::string help;
-    if (token.kind == TokenKind::word) {
-        if (token.symbol < p.in.symbols.size() && p.in.symbols[token.symbol].poisoned) give_up(p, token);
-        std::vector<std::string_view> candidates;
-        for (const Keyword keyword : allowed) candidates.push_back(keyword_text(keyword));
-        const std::string_view word = p.in.words.text(token.symbol);
-        const std::string_view nearest = nearest_word(word, candidates);
-        if (!nearest.empty()) help = fmt::format("did you mean `{}`?", nearest);
-    }
-    if (help.empty() && allowed.size() > 0 && allowed.size() <= 8) {
-        help = "expected here:";
-        for (const Keyword keyword : allowed) help += fmt::format(" `{}`", keyword_text(keyword));
-    }
+    if (token.kind == TokenKind::word && token.symbol < p.in.symbols.size() && p.in.symbols[token.symbol].poisoned)
+        give_up(p, token);
+    check_forgotten_brace(p, token, inside);
+    const Value* value = token.kind == TokenKind::word ? lookup(p.in, token.symbol) : nullptr;
+    std::string message;
+    if (value && !is_keyword(token.symbol))
+        message = fmt::format("{} is {}, which cannot stand in {} so", token_text(p, token), article_name(*value),
+                              inside);
+    else if (token.kind == TokenKind::word && !is_keyword(token.symbol))
+        message = fmt::format("unknown word {} in {}", token_text(p, token), inside);
+    else
+        message = fmt::format("unexpected {} in {}", token_text(p, token), inside);
+    if (is_reported(p.in, token, message)) give_up(p, token);
     std::vector<Note> notes;
     if (!p.in.blocks.empty())
         notes.push_back(
             {p.in.blocks.back().brace.span, fmt::format("{} opened here", p.in.blocks.back().what)});
-    const bool unknown =
-        token.kind == TokenKind::word && !is_keyword(token.symbol) && !is_declared(p.in, token.symbol);
-    std::string message = unknown ? fmt::format("unknown word {} in {}", token_text(p, token), inside)
-                                  : fmt::format("unexpected {} in {}", token_text(p, token), inside);
+    std::string help = help_for_unexpected(p, token, inside, allowed);
     record(p, Severity::error, token, std::move(message), std::move(help), std::move(notes));
     give_up(p, token);
+}
+
+void missing_value(Parser& p, const Token& found, std::string_view wanted) {
+    if (found.kind == TokenKind::word) check_forgotten_brace(p, found, p.in.blocks.empty() ? "" : p.in.blocks.back().what);
+    std::string message = fmt::format("expected {}, found {}", wanted, token_text(p, found));
+    if (is_reported(p.in, found, message)) give_up(p, found);
+    fail(p, found, std::move(message), help_for_missing_value(p, found));
 }
 
 // ---- names of types

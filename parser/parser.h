@@ -80,6 +80,9 @@ void recover_statement(Parser& p);
 // nearest word.
 [[noreturn]] void fail(Parser& p, const Token& at, std::string message, std::string help = {});
 [[noreturn]] void unexpected(Parser& p, std::string_view inside, std::initializer_list<Keyword> allowed);
+// "expected `wanted`, found ...", with how the block's items are written.
+[[noreturn]] void missing_value(Parser& p, const Token& found, std::string_view wanted);
+bool starts_line(const Parser& p, const Token& token); // nothing but spaces before it
 void error(Parser& p, const Token& at, std::string message, std::string help = {}); // records and goes on
 void warn(Parser& p, const Token& at, std::string message, std::string help = {});
 // Books memory that the scene's text asks for (objects, meshes, arrays); beyond the budget: an error at the

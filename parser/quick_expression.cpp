@@ -141,7 +141,7 @@ const Value* element_of(Quick& q, const ArrayValue& array) {
         double index = 0;
         if (!accept(q, '[') || !number(q, Angles::compare, index) || !accept(q, ']')) return nullptr;
         const double whole = std::trunc(index + 1e-8);
-        if (whole < 0 || whole >= size) return nullptr;
+        if (index < -1e-8 || whole >= size) return nullptr;
         element = element * static_cast<std::size_t>(size) + static_cast<std::size_t>(whole);
     }
     return &array.elements[element];

@@ -19,7 +19,8 @@ enum class TokenKind : std::uint8_t {
     directive,   // `#name`; symbol is the name's keyword, value the token to jump to (lexer.h). Never
                  // leaves the expander.
     punctuation, // symbol holds the character, or two of them (first | second << 8) for <= >= !=
-    invalid, // cannot be read; symbol: index of the message in the string table. Never leaves the expander.
+    invalid, // cannot be read; symbol: index of the message in the string table; jump 0: reading ends here.
+             // Never leaves the expander.
     numbers, // a long list of plain numbers and vectors, not cut into tokens yet (number_list.h). Never
              // leaves the expander.
 };
