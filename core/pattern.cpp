@@ -61,12 +61,14 @@ double slope(const SlopePattern& kind, const SurfacePoint& at) {
     double value = stretched(lean(direction, at.normal), kind.low_slope, kind.high_slope);
     const double length = glm::length(kind.altitude);
     if (length > 0)
-        value += stretched(glm::dot(at.point, kind.altitude / length), kind.low_altitude, kind.high_altitude);
+        value = 0.5 * value + 0.5 * stretched(glm::dot(at.point, kind.altitude / length), kind.low_altitude,
+                                              kind.high_altitude);
     return value;
 }
 
+// 1 where the ray meets the surface head on, 0.5 where it grazes it.
 double angle_of_incidence(const SurfacePoint& at) {
-    return std::acos(std::clamp(std::abs(glm::dot(at.normal, at.direction)), 0.0, 1.0)) / (pi / 2);
+    return std::acos(std::clamp(glm::dot(at.normal, at.direction), -1.0, 1.0)) / pi;
 }
 
 double brightness(const ColorFT& c) { return 0.297 * c.rgb.x + 0.589 * c.rgb.y + 0.114 * c.rgb.z; }

@@ -97,7 +97,7 @@ struct FractalPattern {
 struct SlopePattern {
     Vec3 direction{0, 1, 0};
     bool toward_point = false;                  // direction is a point to look at (`point_at`)
-    Vec3 altitude{0};                           // zero: slope alone counts
+    Vec3 altitude{0};                           // zero: slope alone counts; else the mean of both
     double low_slope = 0, high_slope = 0;       // range stretched to 0..1; both 0: as it is
     double low_altitude = 0, high_altitude = 0; // likewise
 };

@@ -8,17 +8,9 @@ namespace {
 
 bool odd(double whole) { return std::fmod(std::abs(whole), 2.0) == 1; }
 
-} // namespace
-
-double value_of(const CheckerPattern&, const SurfacePoint& at) {
-    const Vec3 cell = glm::floor(at.point + Vec3(at.tolerance));
-    return std::fmod(std::abs(cell.x + cell.y + cell.z), 2.0);
-}
-
-// Hexagons of edge 1 in the xz plane, one about the origin with corners on the x axis; no two of a colour
-// touch. The nearest centre is found by rounding in the three axes of the grid.
-double value_of(const HexagonPattern&, const SurfacePoint& at) {
-    const double q = at.point.x * (2.0 / 3), r = at.point.z / std::sqrt(3.0) - at.point.x / 3;
+// Of the hexagon that holds a point, counted along two axes of the grid; found by rounding in all three.
+Vec2 hexagon_number(double x, double z) {
+    const double q = x * (2.0 / 3), r = z / std::sqrt(3.0) - x / 3;
     double i = std::round(q), j = std::round(r);
     const double k = std::round(-q - r);
     const double di = std::abs(i - q), dj = std::abs(j - r), dk = std::abs(k + q + r);
@@ -26,7 +18,25 @@ double value_of(const HexagonPattern&, const SurfacePoint& at) {
         i = -j - k;
     else if (dj > dk)
         j = -i - k;
-    const double number = std::fmod(2 * i + j, 3.0);
+    return {i, j};
+}
+
+} // namespace
+
+Vec2 nearest_hexagon(double x, double z) {
+    const Vec2 number = hexagon_number(x, z);
+    return {1.5 * number.x, std::sqrt(3.0) * (number.y + number.x / 2)};
+}
+
+double value_of(const CheckerPattern&, const SurfacePoint& at) {
+    const Vec3 cell = glm::floor(at.point + Vec3(at.tolerance));
+    return std::fmod(std::abs(cell.x + cell.y + cell.z), 2.0);
+}
+
+// Hexagons of edge 1 in the xz plane, no two of one colour side by side.
+double value_of(const HexagonPattern&, const SurfacePoint& at) {
+    const Vec2 hexagon = hexagon_number(at.point.x, at.point.z);
+    const double number = std::fmod(2 * hexagon.x + hexagon.y, 3.0);
     return number < 0 ? number + 3 : number;
 }
 

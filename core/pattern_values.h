@@ -45,6 +45,8 @@ double value_of(const CubicPattern& kind, const SurfacePoint& at);
 double value_of(const SquarePattern& kind, const SurfacePoint& at);
 double value_of(const TriangularPattern& kind, const SurfacePoint& at);
 double value_of(const BrickPattern& kind, const SurfacePoint& at);
+// The centre of the hexagon that holds a point of the xz plane; edge 1, one about the origin with corners on the x axis.
+Vec2 nearest_hexagon(double x, double z);
 // pattern_tiling.cpp
 double value_of(const TilingPattern& kind, const SurfacePoint& at);
 

@@ -480,9 +480,9 @@ void Builder::move_to_center() {
     world.atmosphere = scene.atmosphere;
     for (Pigment& layer : world.atmosphere.sky.layers) {
         Texture bearer;
-        std::swap(bearer.layers.front().pigment, layer);
-        for_each_pattern(bearer, [&](Pattern& pattern) { prepare_pattern(pattern); });
-        std::swap(bearer.layers.front().pigment, layer);
+        std::swap(bearer.pigment, layer);
+        for_each_pattern(bearer, [&](Pattern& pattern) { prepare_pattern(pattern, pattern_assets); });
+        std::swap(bearer.pigment, layer);
     }
     for (Fog& fog : world.atmosphere.fogs) fog.offset -= glm::dot(world.offset, fog.up);
     for (LightSource light : scene.lights) {

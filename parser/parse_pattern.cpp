@@ -204,6 +204,8 @@ bool parse_special_pattern(Parser& p, Pattern& pattern) {
         return true;
     case "tiling"_kw:
         next(p), set_kind(pattern, TilingPattern{parse_int(p, 1, 24, "`tiling`")});
+        if (std::get<TilingPattern>(pattern.kind).type > 3)
+            warn_unsupported(p, word, "tiling with several shapes (4 to 24)", "triangles take its place");
         return true;
     case "density_file"_kw:
         next(p), set_kind(pattern, parse_density_file(p));
