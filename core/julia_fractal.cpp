@@ -180,7 +180,9 @@ struct Walk {
 
     // Between two points of the ray that lie on different sides.
     void add(double a, double b, bool inside_first) {
-        for (int i = 0; i < 60 && b - a > 0x1p-48 * std::max(std::abs(a), std::abs(b)); ++i) {
+        const double fine =
+            std::max(2e-10 * radius_of(data) / glm::length(ray.direction), 0x1p-50 * std::abs(b));
+        while (b - a > fine) {
             const double middle = 0.5 * (a + b);
             (holds(data, ray.origin + middle * ray.direction) == inside_first ? a : b) = middle;
         }
@@ -223,7 +225,7 @@ void intersect(const JuliaFractal& shape, const Ray& ray, HitList& hits, int eno
         if (now != inside) walk.add(before, t, inside);
         inside = now;
         before = t;
-        t += now ? 2 * shortest : std::max(shortest, 0.5 * orbit.distance / speed);
+        t += now ? 2 * shortest : std::max(shortest, orbit.distance / speed);
     }
     if (inside && end == ends.back().t && static_cast<int>(hits.size()) < enough) {
         hits.push_back(ends.back());

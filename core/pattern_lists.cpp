@@ -67,10 +67,10 @@ double value_of(const TriangularPattern&, const SurfacePoint& at) {
 
 double value_of(const BrickPattern& kind, const SurfacePoint& at) {
     const Vec3 p = (at.point + Vec3(at.tolerance)) / kind.size, mortar = Vec3(kind.mortar) / kind.size;
-    if (fraction(p.y) <= mortar.y) return 0;
+    if (fraction(p.y) <= mortar.y) return 1;
     const double shift = fraction(p.y / 2) <= 0.5 ? 0 : 0.5; // of every other layer
-    if (fraction(p.x + shift) <= mortar.x) return 0;
-    return fraction(p.z + shift) <= mortar.z ? 0 : 1;
+    if (fraction(p.x + shift) <= mortar.x) return 1;
+    return fraction(p.z + shift) <= mortar.z ? 1 : 0;
 }
 
 } // namespace pnr

@@ -18,12 +18,15 @@ double hexagon_tile(double x, double z) {
     return std::max(std::abs(dz), slanted) / edge;
 }
 
-// Triangles of edge 1, one with its base from the origin to (1, 0): 1 on the border, 0 in the middle.
+// Triangles of edge 1, one with its base from the origin to (1, 0). From the middle to the border those that point up go
+// through the upper half of the values, the others through the lower.
 double triangle_tile(double x, double z) {
     const double height = std::sqrt(0.75);
     double row = fraction(z / height), column = fraction(x - z / std::sqrt(3.0));
-    if (row + column >= 1) row = 1 - row, column = 1 - column;
-    return 1 - 3 * std::min({row, column, 1 - row - column});
+    const bool pointing_down = row + column >= 1;
+    if (pointing_down) row = 1 - row, column = 1 - column;
+    const double value = 1 - 3 * std::min({row, column, 1 - row - column});
+    return pointing_down ? value / 2 : (1 + value) / 2;
 }
 
 } // namespace

@@ -371,6 +371,37 @@ Bounds shape_bounds(const Shape& shape) {
         shape);
 }
 
+static bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+bool has_finite_numbers(const Shape& shape) {
+    return std::visit(
+        Overload{
+            [](const Sphere& s) { return is_finite(s.center) && std::isfinite(s.radius); },
+            [](const Box& b) { return is_finite(b.low) && is_finite(b.high); },
+            [](const Plane& p) { return is_finite(p.normal) && std::isfinite(p.distance); },
+            [](const Cylinder& c) {
+                return is_finite(c.base) && is_finite(c.cap) && std::isfinite(c.radius);
+            },
+            [](const Cone& c) {
+                return is_finite(c.base) && is_finite(c.cap) && std::isfinite(c.base_radius + c.cap_radius);
+            },
+            [](const Torus& t) { return std::isfinite(t.major + t.minor); },
+            [](const Disc& d) {
+                return is_finite(d.center) && is_finite(d.normal) && std::isfinite(d.radius) &&
+                       !std::isnan(d.hole);
+            },
+            [](const Mesh& m) {
+                return !m.data || std::all_of(m.data->positions.begin(), m.data->positions.end(),
+                                              [](Vec3f p) { return is_finite(Vec3(p)); });
+            },
+            [](const BicubicPatch& p) {
+                return std::all_of(p.points.begin(), p.points.end(), [](Vec3 q) { return is_finite(q); });
+            },
+            [](const auto&) { return true; }, // those that are made of finite numbers alone
+        },
+        shape);
+}
+
 const char* shape_name(const Shape& shape) {
     return std::visit(Overload{
                           [](const Sphere&) { return "sphere"; },

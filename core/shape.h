@@ -160,6 +160,8 @@ using Shape = std::variant<Sphere, Box, Plane, Cylinder, Cone, Torus, Disc, Mesh
 
 // In the shape's own space; infinite for unbounded shapes.
 Bounds shape_bounds(const Shape& shape);
+// Whether what was said of it is finite: those that are shared were checked when they were read.
+bool has_finite_numbers(const Shape& shape);
 const char* shape_name(const Shape& shape); // POV-Ray's word
 
 } // namespace pnr

@@ -36,35 +36,6 @@ struct Overload : F... {
 template <class... F>
 Overload(F...) -> Overload<F...>; // clang 14 does not find it by itself
 
-bool is_finite(const Shape& shape) {
-    return std::visit(
-        Overload{
-            [](const Sphere& s) { return is_finite(s.center) && std::isfinite(s.radius); },
-            [](const Box& b) { return is_finite(b.low) && is_finite(b.high); },
-            [](const Plane& p) { return is_finite(p.normal) && std::isfinite(p.distance); },
-            [](const Cylinder& c) {
-                return is_finite(c.base) && is_finite(c.cap) && std::isfinite(c.radius);
-            },
-            [](const Cone& c) {
-                return is_finite(c.base) && is_finite(c.cap) && std::isfinite(c.base_radius + c.cap_radius);
-            },
-            [](const Torus& t) { return std::isfinite(t.major + t.minor); },
-            [](const Disc& d) {
-                return is_finite(d.center) && is_finite(d.normal) && std::isfinite(d.radius) &&
-                       !std::isnan(d.hole);
-            },
-            [](const Mesh& m) {
-                return !m.data || std::all_of(m.data->positions.begin(), m.data->positions.end(),
-                                              [](Vec3f p) { return is_finite(Vec3(p)); });
-            },
-            [](const BicubicPatch& p) {
-                return std::all_of(p.points.begin(), p.points.end(), [](Vec3 q) { return is_finite(q); });
-            },
-            [](const auto&) { return true; }, // those that are made of finite numbers alone
-        },
-        shape);
-}
-
 void require(bool fine, const SourceRef& where, const char* text) {
     if (!fine) throw SceneError(where, text);
 }
@@ -349,7 +320,7 @@ struct Builder {
     }
 
     std::uint32_t add_shape(const Object& object, const Inherited& from, bool inverse) {
-        require(is_finite(*object.shape), object.said_at, "a coordinate is not finite");
+        require(has_finite_numbers(*object.shape), object.said_at, "a coordinate is not finite");
         GeometryItem item;
         item.to_world = object.transform;
         item.inverse = inverse;

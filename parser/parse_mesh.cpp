@@ -335,13 +335,22 @@ Triple parse_triple(Parser& p) {
 }
 
 // <a, b, c>, then the numbers of textures.
+// The next face's indices may be named: `F1 + A` with a vector F1.
+bool starts_vector(Parser& p) {
+    const Token& token = peek(p);
+    if (is(token, '<')) return true;
+    const Value* value = token.kind == TokenKind::word ? lookup(p.in, token.symbol) : nullptr;
+    const auto* numbers = value ? std::get_if<VectorValue>(&value->data) : nullptr;
+    return numbers && numbers->size > 1;
+}
+
 void parse_face(Parser& p, MeshData& data) {
     const Token at = peek(p);
     data.triangles.push_back(parse_triple(p));
     accept_comma(p);
     double v[3];
     std::size_t found = 0;
-    while (!is(peek(p), '<') && at_expression(p)) {
+    while (!starts_vector(p) && at_expression(p)) {
         if (found == 3) fail(p, peek(p), "a face has one texture, or three");
         v[found++] = parse_float(p);
         accept_comma(p);

@@ -38,7 +38,7 @@ TEST(ParseFieldShapes, BlobsStandWherePovRayHasThem) {
 TEST(ParseFieldShapes, BlobComponentsKeepTheirTextures) {
     const Scene scene =
         scene_of("blob { threshold 0.3 sphere { 0, 1, 1 pigment { rgb x } } cylinder { 0, x, 1, 1 }"
-                 " sphere { x, 1, 1 texture { pigment { rgb y } } translate x } pigment { rgb z } }");
+                 " sphere { x, 1, 1 texture { pigment { rgb y } } translate 0.2*x } pigment { rgb z } }");
     const Blob& blob = std::get<Blob>(*scene.objects.at(0).shape);
     ASSERT_TRUE(blob.textures);
     ASSERT_EQ(blob.data->components.size(), 3u);
@@ -46,7 +46,7 @@ TEST(ParseFieldShapes, BlobComponentsKeepTheirTextures) {
     EXPECT_EQ(blob.data->components[1].texture, no_texture);
     EXPECT_EQ(blob.data->components[2].texture, 1u);
     const World world = build_world(scene, {});
-    const auto hit = closest_hit(world, {Vec3(0.8, 0, -5) - world.offset, {0, 0, 1}}, RayKind::camera);
+    const auto hit = closest_hit(world, {Vec3(0.55, 0, -5) - world.offset, {0, 0, 1}}, RayKind::camera);
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->shares[0] + hit->shares[1] + hit->shares[2], 1, 1e-6);
     EXPECT_GT(hit->shares[0], hit->shares[1]);

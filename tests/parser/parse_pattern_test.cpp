@@ -135,7 +135,7 @@ TEST(ParsePattern, WavesAndListsAsPovray) { expect_rows("pattern", "", waves_and
 TEST(ParsePattern, FractalsAsPovray) { expect_rows("pattern", "", fractals); }
 
 TEST(ParsePattern, NearMissesAreNamed) {
-    EXPECT_NE(first_error("#declare F = function { pattern { grannite } }").find("granite"), std::string::npos);
+    EXPECT_NE(first_error("#declare F = function { pattern { grannite } }").find("grannite"), std::string::npos);
     EXPECT_NE(first_error("#declare F = function { pattern { gradient 0 } }").find("not zero"), std::string::npos);
     EXPECT_NE(first_error("#declare F = function { pattern { bozo warp { repeat <1, 1, 0> } } }").find("one axis"),
               std::string::npos);

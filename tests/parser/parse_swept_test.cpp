@@ -99,7 +99,7 @@ TEST(ParseSwept, SaysWhatIsWrong) {
     EXPECT_TRUE(says(diagnostics_of("sor { 4, <1, 0>, <1, 1>, <1, 0.5>, <1, 3> }"), "must grow"));
     EXPECT_TRUE(says(diagnostics_of("prism { 0, 1, 3, <0, 0>, <1, 0>, <1, 1> pigment { rgb 1 } }"),
                      "closed by a straight line"));
-    EXPECT_TRUE(says(diagnostics_of("sphere_sweep { 3, <0, 0, 0>, 1 }"), "linear_spline"));
+    EXPECT_TRUE(says(diagnostics_of("sphere_sweep { 3, <0, 0, 0>, 1 }"), "in sphere_sweep"));
     EXPECT_TRUE(says(diagnostics_of("sphere_sweep { b_spline 2, <0, 0, 0>, 1, <1, 0, 0>, 1 }"),
                      "at least 4 spheres"));
     EXPECT_TRUE(says(diagnostics_of("polygon { 3, <0, 0>, <1, 1>, <2, 2> }"), "one line"));
