@@ -66,11 +66,12 @@ double value_of(const TriangularPattern&, const SurfacePoint& at) {
 }
 
 double value_of(const BrickPattern& kind, const SurfacePoint& at) {
-    const Vec3 p = (at.point + Vec3(at.tolerance)) / kind.size, mortar = Vec3(kind.mortar) / kind.size;
-    if (fraction(p.y) <= mortar.y) return 1;
-    const double shift = fraction(p.y / 2) <= 0.5 ? 0 : 0.5; // of every other layer
-    if (fraction(p.x + shift) <= mortar.x) return 1;
-    return fraction(p.z + shift) <= mortar.z ? 1 : 0;
+    const Vec3 mortar = Vec3(kind.mortar) / kind.size; // at the far end of each brick
+    const Vec3 p = (at.point + Vec3(at.tolerance)) / kind.size + mortar;
+    if (fraction(p.y) <= mortar.y) return 0;
+    const double shift = fraction((p.y - mortar.y) / 2) < 0.5 ? 0 : 0.5; // of every other layer
+    if (fraction(p.x + shift) <= mortar.x) return 0;
+    return fraction(p.z + 0.5 - shift) <= mortar.z ? 0 : 1;
 }
 
 } // namespace pnr

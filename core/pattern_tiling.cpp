@@ -18,7 +18,7 @@ double hexagon_tile(double x, double z) {
     return std::max(std::abs(dz), slanted) / edge;
 }
 
-// Triangles of edge 1, one with its base from the origin to (1, 0). From the middle to the border those that point up go
+// Triangles of edge 1, one with its base from the origin to (1, 0). From the middle to the border those that point down go
 // through the upper half of the values, the others through the lower.
 double triangle_tile(double x, double z) {
     const double height = std::sqrt(0.75);
@@ -26,7 +26,7 @@ double triangle_tile(double x, double z) {
     const bool pointing_down = row + column >= 1;
     if (pointing_down) row = 1 - row, column = 1 - column;
     const double value = 1 - 3 * std::min({row, column, 1 - row - column});
-    return pointing_down ? value / 2 : (1 + value) / 2;
+    return pointing_down ? (1 + value) / 2 : value / 2;
 }
 
 } // namespace
