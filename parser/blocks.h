@@ -48,6 +48,7 @@ Shape parse_bicubic_patch(Parser& p);
 // -------------------------------------------------------------------------------------------------
 
 Texture parse_texture(Parser& p, const Texture& start);
+void map_by_uv(Texture& texture); // what `uv_mapping` makes of a texture: later transforms leave it alone
 void parse_texture_item(Parser& p, Texture& texture); // one item of the block; at least one token is taken
 BlendMap<Texture> parse_texture_map(Parser& p);
 // Lays a texture over what is there; replaces it if not `layered`, or where one of them can't be layered.

@@ -95,7 +95,14 @@ void parse_pigment_item(Parser& p, Pigment& pigment) {
 
 Pigment parse_pigment(Parser& p, const Pigment& start) {
     Pigment pigment = start;
-    block(p, "pigment", [&] { parse_pigment_item(p, pigment); });
+    bool uv_mapping = false; // at the end: transforms within the block still count
+    block(p, "pigment", [&] {
+        if (accept(p, "uv_mapping"_kw))
+            uv_mapping = parse_optional_bool(p);
+        else
+            parse_pigment_item(p, pigment);
+    });
+    pigment.pattern.uv_mapping |= uv_mapping;
     return pigment;
 }
 

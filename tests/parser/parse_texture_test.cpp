@@ -159,6 +159,19 @@ TEST(ParseTexture, InteriorTextureAndMaterial) {
     expect_near(transform_point(scene.objects[1].interior_texture->pigment.pattern.transform.matrix, Vec3(1)), Vec3(3));
 }
 
+// Of a surface's own coordinates transforms within the block are made, but not those of the object.
+TEST(ParseTexture, UvMappingLeavesTheObjectsTransformsOut) {
+    const auto expect_scaled = [](const std::string& items) {
+        const Pattern pattern = texture_of(items + " scale 7").pigment.pattern;
+        EXPECT_TRUE(pattern.uv_mapping) << items;
+        expect_near(transform_point(pattern.transform.matrix, Vec3(1)), Vec3(0.1));
+    };
+    expect_scaled("pigment { uv_mapping checker rgb 0, rgb 1 scale 0.1 }");
+    expect_scaled("texture { uv_mapping pigment { checker rgb 0, rgb 1 } scale 0.1 }");
+    expect_scaled("uv_mapping pigment { checker rgb 0, rgb 1 scale 0.1 }");
+    EXPECT_FALSE(texture_of("pigment { checker rgb 0, rgb 1 }").pigment.pattern.uv_mapping);
+}
+
 TEST(ParseNormal, KindsAndTheirAmounts) {
     const auto normal_of = [](const std::string& items) {
         return texture_of("pigment { rgb 1 } normal { " + items + " }").normal.value_or(Normal{});
