@@ -62,6 +62,7 @@ Finish parse_finish(Parser& p, const Finish& start);
 Interior parse_interior(Parser& p, const Interior& start);
 SaidMaterial parse_material(Parser& p);
 ColorMap parse_color_map(Parser& p);
+std::vector<ColorStop> default_map(const Token& word); // what a pattern's word shows without a map
 BlendMap<Pigment> parse_pigment_map(Parser& p);
 ImagePattern parse_image_map(Parser& p, double* bump_size = nullptr); // `bump_size` may stand there if not null
 bool skip_pattern(Parser& p); // one pattern or pattern modifier, where it picks from things that we lack

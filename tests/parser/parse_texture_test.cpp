@@ -44,6 +44,26 @@ TEST(ParsePigment, GradientWithMap) {
     expect_near(transform_point(p.pattern.transform.matrix, Vec3(1)), Vec3(2));
 }
 
+// Colours that POV-Ray shows where the pattern has these values.
+TEST(ParsePigment, PatternsWithoutAMapHaveTheirOwnColours) {
+    const auto seen = [](const std::string& pattern, double value) {
+        Pigment pigment = pigment_of(pattern);
+        set_kind(pigment.pattern, GradientPattern{{1, 0, 0}});
+        SurfacePoint at;
+        at.point = {value, 0, 0};
+        return Vec3(eval_pigment(pigment, at).rgb);
+    };
+    expect_near(seen("agate", 0.2281), {0.977, 0.886, 0.772}, 1e-3);
+    expect_near(seen("agate", 0.5742), {0.9, 0.7, 0.426}, 1e-3);
+    expect_near(seen("agate", 0.8097), {0.79, 0.49, 0.19}, 1e-3);
+    expect_near(seen("bozo", 0.5), {0, 1, 0}, 1e-3);
+    expect_near(seen("mandel 20", 0.0065), {0.5, 1, 0.5}, 1e-3);
+    expect_near(seen("marble", 0.4916), {0.9, 0.407, 0.407}, 1e-3);
+    expect_near(seen("radial", 0.7478), {0.755, 0.245, 1}, 2e-3);
+    expect_near(seen("wood", 0.7), {0.4, 0.133, 0.066}, 1e-3);
+    expect_near(seen("spotted", 0.3), Vec3(0.3), 1e-3);
+}
+
 TEST(ParsePigment, DeclaredMapsAndPigments) {
     const Scene scene = scene_of(R"(
         #declare Map = color_map { [0 rgb 0] [1 rgb <0, 0, 1>] }
