@@ -119,6 +119,7 @@ struct Object {
     std::optional<PaintWord> npr;
     bool no_shadow = false, no_image = false, no_reflection = false, no_radiosity = false, hollow = false, inverse = false;
     bool double_illuminate = false;
+    bool uv_mapping = false; // textures said behind it are laid by the surface's own coordinates
 };
 
 struct Scene {

@@ -69,6 +69,7 @@ Shape parse_text(Parser& p);
 // -------------------------------------------------------------------------------------------------
 
 Texture parse_texture(Parser& p, const Texture& start);
+void map_by_uv(Texture& texture); // what `uv_mapping` makes of a texture: later transforms leave it alone
 void parse_texture_item(Parser& p, Texture& texture); // one item of the block; at least one token is taken
 BlendMap<Texture> parse_texture_map(Parser& p);
 // Lays a texture over what is there; replaces it if not `layered`, or where one of them can't be layered.
@@ -82,6 +83,7 @@ Finish parse_finish(Parser& p, const Finish& start);
 Interior parse_interior(Parser& p, const Interior& start);
 SaidMaterial parse_material(Parser& p);
 ColorMap parse_color_map(Parser& p);
+std::vector<ColorStop> default_map(const Token& word); // what a pattern's word shows without a map
 BlendMap<Pigment> parse_pigment_map(Parser& p);
 ImagePattern parse_image_map(Parser& p, double* bump_size = nullptr); // `bump_size` may stand there if not null
 bool skip_pattern(Parser& p); // one pattern or pattern modifier, where it picks from things that we lack

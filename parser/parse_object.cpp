@@ -109,6 +109,7 @@ void add_texture(Parser& p, Object& object) {
         add_layer(p, *object.texture, texture, true);
     else
         object.texture = texture;
+    if (object.uv_mapping) map_by_uv(*object.texture);
 }
 
 void add_material(Parser& p, Object& object) {
@@ -131,6 +132,7 @@ bool parse_texture_modifier(Parser& p, Object& object) {
         next(p);
         TextureLayer& layer = own_layer(p, object);
         layer.pigment = parse_pigment(p, layer.pigment);
+        if (object.uv_mapping) map_by_uv(*object.texture);
         return true;
     }
     case "finish"_kw: {
@@ -149,13 +151,14 @@ bool parse_texture_modifier(Parser& p, Object& object) {
         next(p);
         TextureLayer& layer = own_layer(p, object);
         layer.normal = parse_normal(p, layer.normal.value_or(Normal{}));
+        if (object.uv_mapping) map_by_uv(*object.texture);
         return true;
     }
     case "interior_texture"_kw:
         next(p), object.interior_texture = parse_texture(p, p.default_texture);
         return true;
     case "uv_mapping"_kw:
-        next(p), parse_optional_bool(p);
+        next(p), object.uv_mapping = parse_optional_bool(p);
         return true;
     default:
         return false;

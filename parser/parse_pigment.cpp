@@ -53,17 +53,16 @@ void parse_pigment_list(Parser& p, Pigment& pigment, const Pattern& pattern) {
         pigment.pigments.push_back({double(i), i < pigments.size() ? pigments[i] : plain(colors[i])});
 }
 
-std::vector<ColorStop> gray_ramp() { return {{0, {Color(0)}}, {1, {Color(1)}}}; }
-
 bool parse_pigment_pattern(Parser& p, Pigment& pigment) {
     if (accept(p, "image_map"_kw)) {
         set_kind(pigment.pattern, parse_image_map(p));
         return true;
     }
+    const Token word = peek(p);
     const bool read = parse_pattern(p, pigment.pattern,
                                     [&](const Pattern& pattern) { parse_pigment_list(p, pigment, pattern); });
     if (read && !is_list_pattern(pigment.pattern)) {
-        pigment.map = gray_ramp();
+        pigment.map = default_map(word);
         pigment.pigments.clear();
     }
     return read;
@@ -95,7 +94,14 @@ void parse_pigment_item(Parser& p, Pigment& pigment) {
 
 Pigment parse_pigment(Parser& p, const Pigment& start) {
     Pigment pigment = start;
-    block(p, "pigment", [&] { parse_pigment_item(p, pigment); });
+    bool uv_mapping = false; // at the end: transforms within the block still count
+    block(p, "pigment", [&] {
+        if (accept(p, "uv_mapping"_kw))
+            uv_mapping = parse_optional_bool(p);
+        else
+            parse_pigment_item(p, pigment);
+    });
+    pigment.pattern.uv_mapping |= uv_mapping;
     return pigment;
 }
 

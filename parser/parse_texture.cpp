@@ -69,21 +69,18 @@ bool parse_texture_pattern(Parser& p, Texture& texture) {
     return parse_pattern(p, texture.pattern, read_list) || parse_pattern_modifier(p, texture.pattern);
 }
 
-void map_by_uv(TextureLayer& layer) {
+void map_layer_by_uv(TextureLayer& layer) {
     layer.pigment.pattern.uv_mapping = true;
     if (layer.normal) layer.normal->pattern.uv_mapping = true;
 }
 
-// Without a map, `checker` and the like show two plain textures of #default, as good as one.
-void finish_texture(Texture& texture, bool uv_mapping) {
-    if (texture.textures.empty()) texture.pattern = {};
-    if (!uv_mapping) return;
-    texture.pattern.uv_mapping = true;
-    map_by_uv(texture);
-    for (TextureLayer& layer : texture.upper) map_by_uv(layer);
-}
-
 } // namespace
+
+void map_by_uv(Texture& texture) {
+    texture.pattern.uv_mapping = true;
+    map_layer_by_uv(texture);
+    for (TextureLayer& layer : texture.upper) map_layer_by_uv(layer);
+}
 
 void parse_texture_item(Parser& p, Texture& texture) {
     TextureLayer& top = top_layer(texture);
@@ -111,7 +108,8 @@ Texture parse_texture(Parser& p, const Texture& start) {
         else
             parse_texture_item(p, texture);
     });
-    finish_texture(texture, uv_mapping);
+    if (texture.textures.empty()) texture.pattern = {}; // a list without entries shows #default's texture
+    if (uv_mapping) map_by_uv(texture);
     return texture;
 }
 

@@ -44,6 +44,26 @@ TEST(ParsePigment, GradientWithMap) {
     expect_near(transform_point(p.pattern.transform.matrix, Vec3(1)), Vec3(2));
 }
 
+// Colours that POV-Ray shows where the pattern has these values.
+TEST(ParsePigment, PatternsWithoutAMapHaveTheirOwnColours) {
+    const auto seen = [](const std::string& pattern, double value) {
+        Pigment pigment = pigment_of(pattern);
+        set_kind(pigment.pattern, GradientPattern{{1, 0, 0}});
+        SurfacePoint at;
+        at.point = {value, 0, 0};
+        return Vec3(eval_pigment(pigment, at).rgb);
+    };
+    expect_near(seen("agate", 0.2281), {0.977, 0.886, 0.772}, 1e-3);
+    expect_near(seen("agate", 0.5742), {0.9, 0.7, 0.426}, 1e-3);
+    expect_near(seen("agate", 0.8097), {0.79, 0.49, 0.19}, 1e-3);
+    expect_near(seen("bozo", 0.5), {0, 1, 0}, 1e-3);
+    expect_near(seen("mandel 20", 0.0065), {0.5, 1, 0.5}, 1e-3);
+    expect_near(seen("marble", 0.4916), {0.9, 0.407, 0.407}, 1e-3);
+    expect_near(seen("radial", 0.7478), {0.755, 0.245, 1}, 2e-3);
+    expect_near(seen("wood", 0.7), {0.4, 0.133, 0.066}, 1e-3);
+    expect_near(seen("spotted", 0.3), Vec3(0.3), 1e-3);
+}
+
 TEST(ParsePigment, DeclaredMapsAndPigments) {
     const Scene scene = scene_of(R"(
         #declare Map = color_map { [0 rgb 0] [1 rgb <0, 0, 1>] }
@@ -157,6 +177,19 @@ TEST(ParseTexture, InteriorTextureAndMaterial) {
     EXPECT_EQ(scene.objects[0].interior_texture->pigment.map[0].color.rgb, Color(1, 0, 0));
     EXPECT_TRUE(scene.objects[0].double_illuminate);
     expect_near(transform_point(scene.objects[1].interior_texture->pigment.pattern.transform.matrix, Vec3(1)), Vec3(3));
+}
+
+// Of a surface's own coordinates transforms within the block are made, but not those of the object.
+TEST(ParseTexture, UvMappingLeavesTheObjectsTransformsOut) {
+    const auto expect_scaled = [](const std::string& items) {
+        const Pattern pattern = texture_of(items + " scale 7").pigment.pattern;
+        EXPECT_TRUE(pattern.uv_mapping) << items;
+        expect_near(transform_point(pattern.transform.matrix, Vec3(1)), Vec3(0.1));
+    };
+    expect_scaled("pigment { uv_mapping checker rgb 0, rgb 1 scale 0.1 }");
+    expect_scaled("texture { uv_mapping pigment { checker rgb 0, rgb 1 } scale 0.1 }");
+    expect_scaled("uv_mapping pigment { checker rgb 0, rgb 1 scale 0.1 }");
+    EXPECT_FALSE(texture_of("pigment { checker rgb 0, rgb 1 }").pigment.pattern.uv_mapping);
 }
 
 TEST(ParseNormal, KindsAndTheirAmounts) {
