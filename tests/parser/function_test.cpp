@@ -56,10 +56,10 @@ TEST(Function, GivesVectors) {
     EXPECT_EQ(run(pigment + "#debug vstr(5, f(0.5, 0, 0), \" \", 0, 4)"),
               "0.5000 0.2500 0.1250 0.1000 0.0500");
     EXPECT_EQ(run(pigment + "#declare g = function { f(x, 0, 0).gray } #debug str(g(0.25, 0, 0), 0, 4)"),
-              "0.1183");
-    EXPECT_EQ(run(pigment + "#debug str(f(0.25, 0, 0).gray, 0, 4)"), "0.1183");
+              "0.1550");
+    EXPECT_EQ(run(pigment + "#debug str(f(0.25, 0, 0).gray, 0, 4)"), "0.1550");
     EXPECT_EQ(first_error(move + "#declare g = function { f(x, y, z) }"),
-              "test.pnr:1:82: error: `f` gives a vector; take one component with .x, .y, .z, .red ...");
+              "test.pnr:1:89: error: `f` gives a vector; take one component with .x, .y, .z, .red ...");
 }
 
 TEST(Function, Internal) {
