@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <random>
+#include <vector>
 
 namespace pnr {
 
@@ -113,9 +115,21 @@ double sum_corners(const Cell& cell, std::uint32_t shift) {
 
 } // namespace
 
-std::uint32_t lattice_hash(std::int64_t x, std::int64_t y, std::int64_t z) {
-    const auto low = [](std::int64_t i) { return static_cast<std::uint32_t>(i & 4095); };
-    return hash_table[hash_table[hash_table[low(x)] ^ low(y)] ^ low(z)];
+Vec3 cell_numbers(Vec3 cell) {
+    // The first outputs of a Mersenne twister as it is seeded by default, over 2^32; cell number h takes h, h
+    // + 1, h + 2.
+    static const std::vector<double> numbers = [] {
+        std::mt19937 twister;
+        std::vector<double> made(hash_table.size() + 2);
+        for (double& number : made) number = static_cast<double>(twister()) * 0x1p-32;
+        return made;
+    }();
+    const auto low = [](double i) {
+        return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::clamp(i, -1e15, 1e15)) & 4095);
+    };
+    const std::uint32_t hash = hash_table[hash_table[hash_table[low(cell.x)] ^ low(cell.y)] ^ low(cell.z)];
+    const double* own = numbers.data() + hash;
+    return {own[0], own[1], own[2]};
 }
 
 double noise(Vec3 point, int generator) {

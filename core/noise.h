@@ -22,8 +22,9 @@ Vec3 noise_vector(Vec3 point);
 double turbulence(Vec3 point, const Turbulence& words, int generator);
 Vec3 turbulence_vector(Vec3 point, const Turbulence& words);
 
-// 0..4095, what a cell of the integer lattice is known by; coordinates count modulo 4096.
-std::uint32_t lattice_hash(std::int64_t x, std::int64_t y, std::int64_t z);
+// Three random numbers in [0, 1) of a cell of the integer lattice (`cell` has whole coordinates, which count
+// modulo 4096): what `cells`, crackle's points and scattered black holes are made of.
+Vec3 cell_numbers(Vec3 cell);
 // The linear congruential generator behind the lattice: state to state, and state to 0..32767.
 constexpr std::uint32_t next_lattice_random(std::uint32_t state) { return state * 1812433253u + 12345u; }
 constexpr std::uint32_t lattice_random_value(std::uint32_t state) { return (state >> 16) & 0x7FFFu; }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/pattern.h"
 
+#include "core/density_grid.h"
 #include "core/noise.h"
 #include "core/pattern_values.h"
+#include "core/picture.h"
 #include "core/pigment.h"
 
 #include <cmath>
@@ -69,6 +71,13 @@ double angle_of_incidence(const SurfacePoint& at) {
 
 double brightness(const ColorFT& c) { return 0.297 * c.rgb.x + 0.589 * c.rgb.y + 0.114 * c.rgb.z; }
 
+double picture_value(const ImagePattern& kind, Vec3 point) {
+    const auto pixel = picture_at(kind, point);
+    if (!pixel) return 0;
+    if (pixel->w < 1 && !kind.use_color) return static_cast<double>(pixel->w);
+    return brightness({Color(*pixel)});
+}
+
 struct RawValue {
     const Pattern& pattern;
     const SurfacePoint& at;
@@ -76,8 +85,10 @@ struct RawValue {
     double operator()(const UniformPattern&) const { return 0; }
     double operator()(const AveragePattern&) const { return 0; }
     double operator()(const FacetsPattern&) const { return 0; }
-    double operator()(const ImagePattern&) const { return 0; }
-    double operator()(const DensityFilePattern&) const { return 0; }
+    double operator()(const ImagePattern& kind) const { return picture_value(kind, at.point); }
+    double operator()(const DensityFilePattern& kind) const {
+        return kind.grid ? density_at(*kind.grid, at.point, kind.interpolate) : 0;
+    }
     double operator()(const GradientPattern& kind) const { return gradient(kind, at); }
     double operator()(const PlainPattern& kind) const { return value_of(kind, pattern, at); }
     double operator()(const AgatePattern& kind) const { return value_of(kind, pattern, at); }

@@ -119,16 +119,23 @@ struct TilingPattern { // a value for each tile of the kind
     int type = 1;
 };
 
-enum class ImageMapType { planar = 0, spherical = 1, cylindrical = 2, torus = 5, uv = 100 };
-struct ImagePattern { // in a pigment: colour from a picture, the map is not used
-    std::string file; // path, resolved and checked by the parser; read by build_world
+enum class ImageMapType { planar = 0, spherical = 1, cylindrical = 2, torus = 5 };
+enum class Interpolation { none = 0, bilinear = 2, bicubic = 3, distance = 4 };
+// A picture: in a pigment (image_map) it gives the colour and the map is not used; elsewhere (image_pattern)
+// the value is its brightness, or its alpha.
+struct ImagePattern {
+    std::string
+        file; // path, resolved and checked by the parser; read by prepare_pattern. Empty: made by a function
     ImageMapType map_type = ImageMapType::planar;
-    bool once = false;       // outside the unit square: transparent instead of tiled
-    bool interpolate = true; // bilinear
-    bool as_stored = false;  // the file's 8-bit values are working values, as before POV-Ray 3.7
+    bool once = false; // outside the unit square: transparent (value 0) instead of tiled
+    Interpolation interpolation = Interpolation::bilinear;
+    bool as_stored = false;         // the file's 8-bit values are working values, as before POV-Ray 3.7
+    double file_gamma = 0;          // of the file's values; 0: what the file says
+    float filter = 0, transmit = 0; // `filter all`, `transmit all`
+    bool is_map = true;             // image_map
+    bool use_color = false;         // image_pattern: brightness even where the picture has an alpha
     SourceRef said_at;
-    std::shared_ptr<const Image<glm::vec4>>
-        image; // working values (Scene::assumed_gamma) and alpha; filled by build_world
+    std::shared_ptr<const Image<glm::vec4>> image; // working values (Scene::assumed_gamma) and alpha
 };
 struct DensityFilePattern {
     std::string file;    // df3; resolved by the parser, read by build_world

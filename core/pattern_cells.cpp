@@ -4,8 +4,6 @@
 #include "core/pattern_values.h"
 
 #include <array>
-#include <random>
-#include <vector>
 
 namespace pnr {
 
@@ -13,32 +11,6 @@ namespace {
 
 // POV-Ray's lower ends of cells are inclusive within this.
 constexpr double cell_edge = 1e-10;
-
-struct CellIndex {
-    std::int64_t x, y, z;
-};
-
-CellIndex cell_index(Vec3 floored) {
-    const Vec3 c = glm::clamp(floored, Vec3(-1e15), Vec3(1e15));
-    return {static_cast<std::int64_t>(c.x), static_cast<std::int64_t>(c.y), static_cast<std::int64_t>(c.z)};
-}
-
-// POV-Ray's random numbers for cells: the first outputs of a Mersenne twister as it is seeded by default,
-// over 2^32. Cell number h (its lattice hash) has number h; its point takes h, h + 1 and h + 2.
-const std::vector<double>& cell_numbers() {
-    static const std::vector<double> numbers = [] {
-        std::mt19937 twister;
-        std::vector<double> made(4096 + 2);
-        for (double& number : made) number = static_cast<double>(twister()) * 0x1p-32;
-        return made;
-    }();
-    return numbers;
-}
-
-Vec3 point_in(CellIndex cell, const double* numbers) {
-    const double* own = numbers + lattice_hash(cell.x, cell.y, cell.z);
-    return {double(cell.x) + own[0], double(cell.y) + own[1], double(cell.z) + own[2]};
-}
 
 struct Nearest {
     std::array<double, 3> distance{1e6, 1e6, 1e6}; // of the three nearest points, in the metric's power
@@ -57,14 +29,13 @@ double metric_power(Vec3 apart, double metric) {
 bool is_near(int x, int y, int z) { return x * x + y * y + z * z <= 5; }
 
 Nearest find_nearest(Vec3 p, double metric) {
-    const CellIndex home = cell_index(glm::floor(p - Vec3(cell_edge)));
-    const double* numbers = cell_numbers().data();
+    const Vec3 home = glm::floor(p - Vec3(cell_edge));
     Nearest found;
     for (int x = -2; x <= 2; ++x)
         for (int y = -2; y <= 2; ++y)
             for (int z = -2; z <= 2; ++z) {
                 if (!is_near(x, y, z)) continue;
-                const Vec3 point = point_in({home.x + x, home.y + y, home.z + z}, numbers);
+                const Vec3 cell = home + Vec3(x, y, z), point = cell + cell_numbers(cell);
                 const double d = metric_power(point - p, metric);
                 auto& [first, second, third] = found.distance;
                 if (d < first) {
@@ -81,10 +52,7 @@ Nearest find_nearest(Vec3 p, double metric) {
 
 } // namespace
 
-double cells_value(Vec3 point) {
-    const CellIndex cell = cell_index(glm::floor(point + Vec3(cell_edge)));
-    return cell_numbers()[lattice_hash(cell.x, cell.y, cell.z)];
-}
+double cells_value(Vec3 point) { return cell_numbers(glm::floor(point + Vec3(cell_edge))).x; }
 
 double value_of(const CracklePattern& kind, const Pattern& pattern, const SurfacePoint& at) {
     const Nearest nearest = find_nearest(at.point, kind.metric);

@@ -33,7 +33,7 @@ struct BlackHoleWarp {
 enum class MapShape { spherical, cylindrical, toroidal, planar, cubic };
 struct MapWarp { // lays the xy plane round a shape
     MapShape shape = MapShape::spherical;
-    Vec3 orientation{0, 0, 1};
+    Vec3 orientation{0, 0, 1}; // unit
     double dist_exp = 0;
     double major_radius = 1; // of the torus
     double distance = 0;     // of the plane from the origin

@@ -2,10 +2,10 @@
 #include "core/world.h"
 
 #include "core/geometry.h"
-#include "core/image_io.h"
 #include "core/material.h"
 #include "core/mesh_io.h"
 #include "core/mesh_repair.h"
+#include "core/pattern_assets.h"
 #include "core/probe.h"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ void require(bool fine, const SourceRef& where, const char* text) {
     if (!fine) throw SceneError(where, text);
 }
 
-// ---- meshes and pictures
+// ---- meshes
 // --------------------------------------------------------------------------------------
 
 // Each file is read once, each mesh worked on and smoothed once, however many objects show it.
@@ -73,7 +73,6 @@ struct Assets {
     using Work = std::tuple<const MeshData*, bool, int, int>;
     std::map<std::string, std::shared_ptr<const MeshData>> meshes;
     std::map<const MeshData*, std::shared_ptr<const MeshData>> smooth;
-    std::map<std::pair<std::string, bool>, std::shared_ptr<const Image<glm::vec4>>> images;
     std::map<Work, std::shared_ptr<const MeshData>> worked_on;
 
     std::vector<std::string> notes;
@@ -92,20 +91,6 @@ struct Assets {
         const bool smooth_already = !data->normals.empty();
         if (said.repair || said.subdivide > 0 || said.simplify > 0) data = worked(data, said);
         return (said.smooth || smooth_already) && data->normals.empty() ? smoothed(data) : data;
-    }
-
-    // In the scene's working values.
-    std::shared_ptr<const Image<glm::vec4>> image(const ImagePattern& said, double assumed_gamma) {
-        auto& entry = images[{said.file, said.as_stored}];
-        if (!entry) {
-            Image<glm::vec4> picture = read_image(said.file);
-            const double gamma = said.as_stored ? 0 : assumed_gamma; // 0: what the sRGB curve had decoded
-            for (glm::vec4& pixel : picture.pixels)
-                for (int c = 0; c < 3; ++c) pixel[c] = working_from_linear(pixel[c], gamma);
-            entry = std::make_shared<const Image<glm::vec4>>(std::move(picture));
-        }
-        require(!entry->empty(), said.said_at, "the picture is empty");
-        return entry;
     }
 
 private:
@@ -184,6 +169,7 @@ struct Builder {
     const Scene& scene;
     World world;
     Assets assets;
+    PatternAssets pattern_assets{};
     std::vector<GeometryItem> items; // in scene space until the offset is known
     std::vector<CsgNode> solids{};
 
@@ -206,8 +192,7 @@ struct Builder {
         }
         if (from.interior) material.interior = *from.interior;
         if (from.photons) material.photons = *from.photons;
-        if (auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern.kind))
-            picture->image = assets.image(*picture, scene.assumed_gamma);
+        prepare_pigment(material.pigment, pattern_assets);
         world.materials.push_back(std::move(material));
         return static_cast<int>(world.materials.size()) - 1;
     }

@@ -81,6 +81,8 @@ ScalarField field_of(std::shared_ptr<const Function> function);
 // `function [(names)] { expression }`, the word being next. Without names they are x, y, z, and u, v mean x,
 // y. What we cannot evaluate is read and marked as unsupported.
 std::shared_ptr<const Function> parse_function(Parser& p);
+// The same behind its word (`word`), and whatever stands between.
+std::shared_ptr<const Function> parse_function_body(Parser& p, const Token& word);
 
 // function_native.cpp. Is the function's body no expression but `internal(N)`, `transform { ... }`, `spline {
 // ... }`, `pigment { ... }` or `pattern { ... }`? If so it is read into `function`.

@@ -317,6 +317,10 @@ constexpr double most_cost = 1e7; // instructions of one call
 
 std::shared_ptr<const Function> parse_function(Parser& p) {
     const Token word = next(p);
+    return parse_function_body(p, word);
+}
+
+std::shared_ptr<const Function> parse_function_body(Parser& p, const Token& word) {
     auto function = std::make_shared<Function>();
     Compiler compiler{p, *function, {}, 0};
     function->parameters = parameter_names(p, compiler.names);

@@ -208,6 +208,13 @@ bool parse_special_pattern(Parser& p, Pattern& pattern) {
     case "density_file"_kw:
         next(p), set_kind(pattern, parse_density_file(p));
         return true;
+    case "image_pattern"_kw: {
+        next(p);
+        ImagePattern image = parse_image_map(p);
+        image.is_map = false;
+        set_kind(pattern, std::move(image));
+        return true;
+    }
     case "pigment_pattern"_kw:
         next(p);
         set_kind(pattern, PigmentPattern{std::make_shared<const Pigment>(parse_pigment(p, Pigment{}))});
@@ -372,15 +379,33 @@ Pattern parse_pattern_block(Parser& p) {
     return pattern;
 }
 
+namespace {
+
+// Files are read once for all functions of a scene, but for those whose gamma changes between.
+template <class Prepare>
+void prepare_now(Parser& p, Prepare prepare) {
+    PatternAssets& assets = p.pattern_assets;
+    if (assets.assumed_gamma != p.scene.assumed_gamma) assets.pictures.clear();
+    assets.assumed_gamma = p.scene.assumed_gamma;
+    assets.noise_generator = p.scene.noise_generator;
+    assets.number_of_waves = p.scene.number_of_waves;
+    const Token at = peek(p);
+    try {
+        prepare(assets);
+    } catch (const std::runtime_error& problem) { // FileError, SceneError
+        fail(p, at, problem.what());
+    }
+}
+
+} // namespace
+
 Pattern prepared(Parser& p, Pattern pattern) {
-    if (pattern.noise_generator == 0) pattern.noise_generator = p.scene.noise_generator;
-    if (pattern.number_of_waves == 0) pattern.number_of_waves = p.scene.number_of_waves;
+    prepare_now(p, [&](PatternAssets& assets) { prepare_pattern(pattern, assets); });
     return pattern;
 }
 
 Pigment prepared(Parser& p, Pigment pigment) {
-    pigment.pattern = prepared(p, std::move(pigment.pattern));
-    for (auto& entry : pigment.pigments) entry.value = prepared(p, std::move(entry.value));
+    prepare_now(p, [&](PatternAssets& assets) { prepare_pigment(pigment, assets); });
     return pigment;
 }
 

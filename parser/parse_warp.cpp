@@ -83,6 +83,9 @@ MapWarp parse_map_warp(Parser& p, MapShape shape) {
         else
             unexpected(p, "warp", {"orientation"_kw, "dist_exp"_kw, "major_radius"_kw});
     }
+    const double length = glm::length(warp.orientation);
+    if (!(length > 0)) fail(p, peek(p), "the orientation of a warp is a direction, not zero");
+    warp.orientation /= length;
     return warp;
 }
 

@@ -5,6 +5,7 @@
 // Every parsing function bears the name of its rule in grammar/pnr.ebnf.
 #pragma once
 
+#include "core/pattern_assets.h"
 #include "core/scene.h"
 #include "core/settings.h"
 #include "parser/diagnostic.h"
@@ -36,6 +37,7 @@ struct Parser {
     std::set<std::string, std::less<>> left_out; // features that were warned about
     // What inside() and trace() have built; the objects are kept, so that no other takes their place.
     std::map<std::shared_ptr<const DeclaredBlock>, std::shared_ptr<const Probe>> probes{};
+    PatternAssets pattern_assets{}; // of functions, which are evaluated while the scene is read
 };
 
 // Thrown after an error was recorded, to unwind to the nearest place that can recover (a block's end).

@@ -28,7 +28,7 @@ Pigment picture(ImageMapType type, bool once = false, bool interpolate = false) 
     ImagePattern pattern;
     pattern.map_type = type;
     pattern.once = once;
-    pattern.interpolate = interpolate;
+    pattern.interpolation = interpolate ? Interpolation::bilinear : Interpolation::none;
     pattern.image = image;
     Pigment pigment;
     set_kind(pigment.pattern, pattern);
@@ -110,7 +110,8 @@ TEST(Pigment, PicturesStandUpright) {
     const Pigment once = picture(ImageMapType::planar, true);
     EXPECT_EQ(eval_pigment(once, {{1.2, 0.8, 0}}).transmit, 1.f);
     EXPECT_EQ(eval_pigment(once, {{1, 1, 0}}).rgb, green);
-    const Pigment uv = picture(ImageMapType::uv);
+    Pigment uv = picture(ImageMapType::planar);
+    uv.pattern.uv_mapping = true;
     EXPECT_EQ(eval_pigment(uv, {{9, 9, 9}, {0.2, 0.2}}).rgb, blue);
 }
 
