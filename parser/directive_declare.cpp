@@ -56,7 +56,7 @@ Target take_target(Parser& p, const Token& directive) {
              value ? fmt::format("`{}` is {}, not an array", token_text(p, name), article_name(*value))
                    : fmt::format("`{}` is not declared", p.in.words.text(name.symbol)));
     std::tie(target.array, target.element) = take_subscripts(p, name, *array);
-    while (is(peek_raw(p), '[')) { // an array in an array
+    while (is(peek_raw(p), '[')) { // an array in an array; what stands behind is not run yet
         Value& inner = target.array->elements[target.element];
         auto* deeper = std::get_if<std::shared_ptr<ArrayValue>>(&inner.data);
         if (!deeper) fail(p, peek(p), "this element is not an array");

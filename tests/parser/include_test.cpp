@@ -78,7 +78,7 @@ const std::string random = R"(#include "rand.inc"
     Pr(rand(RdmA)) Pr(rand(RdmB)) Pr(rand(RdmC)) Pr(rand(RdmD)) Pr(Prob(0.4, R)) Pr(Rand_Cauchy(1, 2, R))
     #declare Z = Rand_Student(5, R); Pr(Z) #declare Z = Rand_Normal(1, 2, R); Pr(Z) #declare Z = Rand_Gauss(1, 2, R); Pr(Z)
     #declare Z = Rand_Gamma(2.5, 1.5, R); Pr(Z) #declare Z = Rand_Gamma(1, 1.5, R); Pr(Z)
-    #declare Z = Rand_Gamma(0.5, 1.5, R); Pr(Z) #declare Z = Rand_Beta(2, 3, R); Pr(Z)
+    #declare Z = Rand_Gamma(0.5, 1.5, R); Pr(Z) #declare Z = Rand_Beta(2, 3, R); Pr(Z) #declare Z = Rand_Spline(Curve, R); Pr(Z)
     #declare Z = Rand_Chi_Square(4, R); Pr(Z) #declare Z = Rand_F_Dist(3, 4, R); Pr(Z)
     #declare Z = Rand_Triangle(1, 5, 2, R); Pr(Z) #declare Z = Rand_Erlang(1, 3, R); Pr(Z) Pr(Rand_Exp(2, R))
     #declare Z = Rand_Lognormal(0, 1, R); Pr(Z) Pr(Rand_Pareto(2, R)) Pr(Rand_Weibull(1, 2, R)) Pr(Rand_Bernoulli(0.5, R))
