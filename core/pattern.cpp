@@ -17,6 +17,8 @@ template <class... F>
 struct Overload : F... {
     using F::operator()...;
 };
+template <class... F>
+Overload(F...) -> Overload<F...>; // clang 14 does not find it by itself
 
 // A transform's inverse, and how far rounding may move the result: a face that lies exactly on a pattern's
 // border (the floor y = 0 under a checker, the top y = 1 of a gradient) must not flicker between two colours.

@@ -29,13 +29,6 @@ bool is_finite(const Transform& t) {
     return true;
 }
 
-template <class... F>
-struct Overload : F... {
-    using F::operator()...;
-};
-template <class... F>
-Overload(F...) -> Overload<F...>; // clang 14 does not find it by itself
-
 void require(bool fine, const SourceRef& where, const char* text) {
     if (!fine) throw SceneError(where, text);
 }
