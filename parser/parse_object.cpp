@@ -383,15 +383,17 @@ Object parse_group(Parser& p, const Token& word) {
     Object group;
     const std::string what = token_text(p, word, false);
     group.combination = combination_of(word);
-    if (is(word, "light_group"_kw)) warn_unsupported(p, word, what, "its lights shine on everything");
     block(p, what, [&] {
         if (parse_group_child(p, group) || parse_object_modifier(p, group)) return;
         if (is(word, "light_group"_kw) && accept(p, "global_lights"_kw))
-            parse_bool(p);
+            group.global_lights = parse_bool(p);
         else
             unexpected_in_object(p, what);
     });
     check_group(p, word, group);
+    if (!is(word, "light_group"_kw)) return group;
+    group.light_group = ++p.light_groups;
+    for (LightSource& light : group.lights) light.group = group.light_group;
     return group;
 }
 

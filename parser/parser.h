@@ -35,6 +35,7 @@ struct Parser {
     PaintWord
         paint_defaults; // global_settings { npr { ... } } and #default { npr { ... } }, merged at the end
     std::set<std::string, std::less<>> left_out; // features that were warned about
+    int light_groups = 0; // so far
     // What inside() and trace() have built; the objects are kept, so that no other takes their place.
     std::map<std::shared_ptr<const DeclaredBlock>, std::shared_ptr<const Probe>> probes{};
     PatternAssets pattern_assets{}; // of functions, which are evaluated while the scene is read
