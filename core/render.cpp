@@ -353,7 +353,7 @@ RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap&
     // Samples that are given need no look at the neighbours.
     const SampleCounts counted =
         samples ? SampleCounts{samples->count, samples->count} : sample_counts(world, settings.render);
-    const auto [first, most] = std::pair(counted.first, counted.most);
+    const int first = counted.first, most = counted.most;
     Job job{shading,
             gbuffer,
             settings,

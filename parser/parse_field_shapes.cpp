@@ -28,21 +28,24 @@ double parse_positive(Parser& p, std::string_view what) {
     return value;
 }
 
+// Outside of the template: clang 14 would look for the operator at run time.
+constexpr Keyword sphere_word = "sphere"_kw, box_word = "box"_kw;
+
 // `{ sphere { centre, radius } }` or `{ box { corner, corner } }`.
 template <class Data>
 void parse_contained_by(Parser& p, Data& data) {
     block(p, "contained_by", [&] {
         const Token word = peek(p);
-        if (accept(p, "sphere"_kw)) {
+        if (accept(p, sphere_word)) {
             data.in_sphere = true;
             block(p, "sphere", [&] { data.sphere = std::get<Sphere>(parse_sphere(p)); });
-        } else if (accept(p, "box"_kw)) {
+        } else if (accept(p, box_word)) {
             data.in_sphere = false;
             block(p, "box", [&] { data.box = std::get<Box>(parse_box(p)); });
             const Vec3 size = data.box.high - data.box.low;
             if (!(size.x > 0 && size.y > 0 && size.z > 0)) fail(p, word, "this container has no volume");
         } else {
-            unexpected(p, "contained_by", {"sphere"_kw, "box"_kw});
+            unexpected(p, "contained_by", {sphere_word, box_word});
         }
     });
 }
