@@ -8,6 +8,9 @@ namespace pnr {
 
 namespace {
 
+// What #default says, without it POV-Ray's own.
+Normal default_normal(Parser& p) { return top_layer(p.default_texture).normal.value_or(Normal{}); }
+
 // The amount behind a pattern's word.
 void parse_size(Parser& p, Normal& normal) {
     accept_comma(p);
@@ -18,7 +21,7 @@ void parse_size(Parser& p, Normal& normal) {
 void parse_normal_list(Parser& p, Normal& normal) {
     BlendMap<Normal> list;
     while (accept(p, "normal"_kw)) {
-        list.push_back({static_cast<double>(list.size()), parse_normal(p, Normal{})});
+        list.push_back({static_cast<double>(list.size()), parse_normal(p, default_normal(p))});
         accept_comma(p);
     }
     if (!list.empty()) normal.normals = std::move(list);
@@ -81,7 +84,7 @@ Normal parse_normal(Parser& p, const Normal& start) {
 
 BlendMap<Normal> parse_normal_map(Parser& p) {
     return parse_blend_map<Normal>(p, "normal_map", [&] {
-        Normal normal;
+        Normal normal = default_normal(p);
         while (!at(p, ']') && !at(p, '}') && !at_end(p)) parse_normal_item(p, normal);
         return normal;
     });

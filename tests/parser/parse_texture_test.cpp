@@ -221,11 +221,13 @@ TEST(ParseNormal, StandsInTexturesDefaultsAndDeclarations) {
         #declare Paint = texture { pigment { rgb 1 } normal { Rough scale 3 } }
         sphere { 0, 1 texture { Paint } scale 2 }
         #default { normal { dents 0.2 } }
-        sphere { 0, 1 pigment { rgb 1 } })");
+        sphere { 0, 1 pigment { rgb 1 } }
+        sphere { 0, 1 pigment { rgb 1 } normal { gradient x normal_map { [0 bumps] [1 ripples 0.4] } } })");
     ASSERT_TRUE(scene.objects[0].texture->normal);
     expect_near(transform_point(scene.objects[0].texture->normal->pattern.transform.matrix, Vec3(1)), Vec3(6));
     ASSERT_TRUE(scene.objects[1].texture->normal);
     EXPECT_EQ(scene.objects[1].texture->normal->size, 0.2);
+    EXPECT_EQ(scene.objects[2].texture->normal->normals.at(0).value.size, 0.2); // entries of maps start from it too
 }
 
 // The shares that POV-Ray's pictures show: with `albedo` the highlight's peak grows with its sharpness.
