@@ -152,6 +152,7 @@ Vec2 parse_uv(Parser& p) {
 ColorFT parse_color(Parser& p) {
     const Token first = peek(p);
     VectorValue value = at_color(p) ? color_expression(p) : parse_conditional(p, Angles::bracket);
+    parse_channels(p, value); // White filter 0.9
     promote(value, 5);
     const double largest = std::max({value.v[0], value.v[1], value.v[2]});
     if (largest > 10 && !p.in.blocks.empty() && p.in.blocks.back().what == "pigment")

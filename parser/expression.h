@@ -22,6 +22,7 @@ double parse_condition(Parser& p);                   // a scalar, comparisons al
 VectorValue parse_primary(Parser& p);
 VectorValue vector_literal(Parser& p);
 bool at_color(Parser& p);
+void parse_channels(Parser& p, VectorValue& color); // `filter 0.5` and the like, if they stand here: into `color`
 VectorValue color_expression(Parser& p); // `color ...`, `rgb ...`, `red 1 green 2`: five components
 
 inline VectorValue scalar(double value) { return {{value, 0, 0, 0, 0}, 1, false}; }

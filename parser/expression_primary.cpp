@@ -309,12 +309,17 @@ VectorValue color_expression(Parser& p) {
         promote(color, 5);
         color.is_color = true;
     }
+    parse_channels(p, color);
+    return color;
+}
+
+void parse_channels(Parser& p, VectorValue& color) {
     for (;;) {
         const Token& channel = peek_operator(p);
-        if (channel.kind != TokenKind::word || !is_channel_word(static_cast<Keyword>(channel.symbol)))
-            return color;
+        if (channel.kind != TokenKind::word || !is_channel_word(static_cast<Keyword>(channel.symbol))) return;
         const auto word = static_cast<Keyword>(next(p).symbol);
         const int index = word == "alpha"_kw ? 3 : component_index(word);
+        promote(color, 5);
         color.v[index] = parse_float(p);
     }
 }

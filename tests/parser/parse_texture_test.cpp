@@ -22,6 +22,19 @@ TEST(ParsePigment, Colours) {
     EXPECT_EQ(glass.transmit, 0.5f);
 }
 
+TEST(ParsePigment, ChannelsFollowANamedColour) {
+    const auto color_of = [](const std::string& items) {
+        const Scene scene = scene_of("#declare W = color rgb <0.9, 0.5, 0.7>; sphere { 0, 1 pigment { " + items + " } }");
+        return scene.objects.at(0).texture->pigment.map[0].color;
+    };
+    for (const std::string item : {"W filter 0.5", "color W filter 0.5", "rgb <0.9, 0.5, 0.7> filter 0.5"}) {
+        EXPECT_EQ(color_of(item).rgb, Color(0.9f, 0.5f, 0.7f)) << item;
+        EXPECT_EQ(color_of(item).filter, 0.5f) << item;
+    }
+    EXPECT_EQ(color_of("W red 0.2 transmit 1").rgb, Color(0.2f, 0.5f, 0.7f));
+    EXPECT_EQ(color_of("W red 0.2 transmit 1").transmit, 1);
+}
+
 TEST(ParsePigment, CheckerHasPovRaysDefaults) {
     const Pigment both = pigment_of("checker rgb 0, rgb 1");
     EXPECT_TRUE(std::holds_alternative<CheckerPattern>(both.pattern.kind));
