@@ -11,12 +11,20 @@ namespace pnr {
 
 namespace {
 
+// Numbers beyond the block are those of its other end.
 double value_at(const DensityGrid& grid, int x, int y, int z) {
-    const auto inside = [](int i, int n) { return static_cast<std::size_t>(std::clamp(i, 0, n - 1)); };
-    const std::size_t index = (inside(z, grid.nz) * static_cast<std::size_t>(grid.ny) + inside(y, grid.ny)) *
+    const auto around = [](int i, int n) { return static_cast<std::size_t>(((i % n) + n) % n); };
+    const std::size_t index = (around(z, grid.nz) * static_cast<std::size_t>(grid.ny) + around(y, grid.ny)) *
                                   static_cast<std::size_t>(grid.nx) +
-                              inside(x, grid.nx);
+                              around(x, grid.nx);
     return static_cast<double>(grid.values[index]);
+}
+
+// Of the numbers at -1, 0, 1, 2 for a place t between 0 and 1; two or four of them count.
+std::array<double, 4> weights(double t, bool cubic) {
+    if (!cubic) return {0, 1 - t, t, 0};
+    return {t * (-0.5 + t * (1 - 0.5 * t)), 1 + t * t * (-2.5 + 1.5 * t), t * (0.5 + t * (2 - 1.5 * t)),
+            t * t * (-0.5 + 0.5 * t)}; // [Catmull and Rom 1974]
 }
 
 } // namespace
@@ -55,13 +63,17 @@ double density_at(const DensityGrid& grid, Vec3 point, int interpolate) {
     const Vec3 p = point * Vec3(grid.nx, grid.ny, grid.nz);
     if (interpolate == 0) return value_at(grid, int(p.x), int(p.y), int(p.z));
     const Vec3 low = glm::floor(p), t = p - low;
-    const int x = int(low.x), y = int(low.y), z = int(low.z);
+    const int x = int(low.x) - 1, y = int(low.y) - 1, z = int(low.z) - 1;
+    const bool cubic = interpolate == 2;
+    const auto wx = weights(t.x, cubic), wy = weights(t.y, cubic), wz = weights(t.z, cubic);
     double sum = 0;
-    for (int k = 0; k < 2; ++k)
-        for (int j = 0; j < 2; ++j)
-            for (int i = 0; i < 2; ++i)
-                sum += (i ? t.x : 1 - t.x) * (j ? t.y : 1 - t.y) * (k ? t.z : 1 - t.z) *
-                       value_at(grid, x + i, y + j, z + k);
+    for (int k = 0; k < 4; ++k)
+        for (int j = 0; j < 4; ++j)
+            for (int i = 0; i < 4; ++i) {
+                const double weight = wx[static_cast<std::size_t>(i)] * wy[static_cast<std::size_t>(j)] *
+                                      wz[static_cast<std::size_t>(k)];
+                if (weight != 0) sum += weight * value_at(grid, x + i, y + j, z + k);
+            }
     return sum;
 }
 

@@ -18,8 +18,8 @@ struct DensityGrid {
 // Big-endian sizes of 16 bits, then values of 8, 16 or 32 bits as the file's length says. Throws FileError.
 DensityGrid read_density_grid(const std::filesystem::path& file);
 
-// interpolate: 0 the cell's own value, 1 trilinear, 2 tricubic between the cells' places; 0 outside the unit
-// cube.
+// interpolate: 0 the cell's own value; 1 trilinear, 2 tricubic between the cells' low corners, and round to the other side
+// at the block's far ends. 0 outside the unit cube.
 double density_at(const DensityGrid& grid, Vec3 point, int interpolate);
 
 } // namespace pnr

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/noise.h"
 
+#include "core/gradient_noise.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,10 +14,9 @@ namespace pnr {
 
 namespace {
 
-// A lattice cell's hash: a permutation of 0..4095 looked up three times. The permutation is a shuffle by the
-// linear congruential generator that POV-Ray's manual of solid textures inherits from DKBTrace; that it is
-// this one, and this seed, was found by comparing its values with those that POV-Ray prints at lattice
-// points.
+// A lattice cell's hash: a permutation of 0..4095 looked up three times. The permutation is a shuffle by a
+// linear congruential generator; that it is this one, from 0, was found by trying it against the values that
+// POV-Ray prints at thousands of lattice points.
 using HashTable = std::array<std::uint16_t, 4096>;
 constexpr HashTable make_hash_table() {
     HashTable table{};
@@ -116,7 +117,8 @@ double sum_corners(const Cell& cell, std::uint32_t shift) {
 } // namespace
 
 Vec3 cell_numbers(Vec3 cell) {
-    // The first outputs of a Mersenne twister as it is seeded by default, over 2^32; cell number h takes h, h
+    // The first outputs of a Mersenne twister [Matsumoto and Nishimura 1998] with its usual seed, over 2^32;
+    // cell number h takes h, h
     // + 1, h + 2.
     static const std::vector<double> numbers = [] {
         std::mt19937 twister;
@@ -133,6 +135,7 @@ Vec3 cell_numbers(Vec3 cell) {
 }
 
 double noise(Vec3 point, int generator) {
+    if (generator == 3) return std::clamp(0.5 * (1.59 * gradient_noise(point) + 0.985), 0.0, 1.0);
     const double sum = sum_corners(make_cell(point), 0);
     if (generator == 1) return std::clamp(sum + 0.5, 0.0, 1.0);
     // The sum's own range, -1.05242 to 0.988997, brought to 0..1.

@@ -102,6 +102,8 @@ Pattern parse_pattern_block(Parser& p);
 // With what the scene says at this place (noise, pictures) filled in: what is evaluated while the scene is read.
 Pattern prepared(Parser& p, Pattern pattern);
 Pigment prepared(Parser& p, Pigment pigment);
+// Of patterns that say none, at this place of the text: what global_settings said, else 1 below #version 3.5, else 2.
+int scene_noise_generator(const Parser& p);
 bool parse_turbulence_word(Parser& p, Turbulence& turbulence); // octaves, omega, lambda
 void parse_warp(Parser& p, Pattern& pattern);                  // the block behind `warp`
 // The block of a map behind its word: a declared map, or `[position item] ...`, where `read` reads an item up to the

@@ -34,7 +34,7 @@ void parse_internal(Parser& p, Function& function) {
         function.code.push_back(
             {.kind = Instruction::Kind::argument, .index = static_cast<std::uint32_t>(i)});
     if (index == noise3d) { // the noise that counts in the scene
-        function.code.push_back({.value = static_cast<double>(p.scene.noise_generator)});
+        function.code.push_back({.value = static_cast<double>(scene_noise_generator(p))});
         index = noise_generator;
     }
     if (!all[index].evaluate) function.unsupported = fmt::format("{}", all[index].name);

@@ -389,7 +389,7 @@ void prepare_now(Parser& p, Prepare prepare) {
     PatternAssets& assets = p.pattern_assets;
     if (assets.assumed_gamma != p.scene.assumed_gamma) assets.pictures.clear();
     assets.assumed_gamma = p.scene.assumed_gamma;
-    assets.noise_generator = p.scene.noise_generator;
+    assets.noise_generator = scene_noise_generator(p);
     assets.number_of_waves = p.scene.number_of_waves;
     const Token at = peek(p);
     try {
@@ -400,6 +400,11 @@ void prepare_now(Parser& p, Prepare prepare) {
 }
 
 } // namespace
+
+int scene_noise_generator(const Parser& p) {
+    if (p.noise_said) return p.scene.noise_generator;
+    return p.in.version < 3.5 ? 1 : 2;
+}
 
 Pattern prepared(Parser& p, Pattern pattern) {
     prepare_now(p, [&](PatternAssets& assets) { prepare_pattern(pattern, assets); });

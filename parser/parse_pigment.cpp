@@ -19,13 +19,12 @@ Pigment plain(const ColorFT& color) {
 
 // POV-Ray's colours for entries that are not given.
 std::vector<ColorFT> default_list(const Pattern& pattern) {
-    const ColorFT blue{Color(0, 0, 1)}, green{Color(0, 1, 0)}, red{Color(1, 0, 0)};
-    const ColorFT gray{Color(0.5f)}, dark_red{Color(0.5f, 0, 0)};
-    std::vector<ColorFT> colors;
+    const ColorFT red{Color(1, 0, 0)}, green{Color(0, 1, 0)}, blue{Color(0, 0, 1)};
     if (std::holds_alternative<BrickPattern>(pattern.kind))
-        colors = {gray, dark_red};
-    else
-        colors = {blue, green, red};
+        return {{Color(0.5f)}, {Color(0.6f, 0.15f, 0.15f)}};
+    std::vector<ColorFT> colors{blue, green, red};
+    if (list_size(pattern) > 3)
+        colors = {red, green, blue, {Color(1, 1, 0)}, {Color(0, 1, 1)}, {Color(1, 0, 1)}};
     colors.resize(static_cast<std::size_t>(list_size(pattern)));
     return colors;
 }

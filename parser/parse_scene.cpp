@@ -157,6 +157,7 @@ void parse_scene(Parser& p) {
     }
     resolve_paint(p);
     p.scene.version = p.in.version;
+    p.scene.noise_generator = scene_noise_generator(p);
     check_whole_scene(p);
     warn_unused(p);
 }

@@ -147,6 +147,7 @@ void parse_setting(Parser& p) {
         return;
     case "noise_generator"_kw:
         next(p), p.scene.noise_generator = parse_int(p, 1, 3, "`noise_generator`");
+        p.noise_said = true;
         return;
     case "number_of_waves"_kw:
         next(p), p.scene.number_of_waves = parse_int(p, 1, 64, "`number_of_waves`");

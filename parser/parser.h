@@ -38,6 +38,7 @@ struct Parser {
     int light_groups = 0; // so far
     // What inside() and trace() have built; the objects are kept, so that no other takes their place.
     std::map<std::shared_ptr<const DeclaredBlock>, std::shared_ptr<const Probe>> probes{};
+    bool noise_said = false; // global_settings { noise_generator }
     PatternAssets pattern_assets{}; // of functions, which are evaluated while the scene is read
 };
 

@@ -126,6 +126,20 @@ const Row fractals[] = {
     {"magnet 2 julia <0.4, 0.3> 15",
      {1, 1, 1, 0, 1, 0.266666667, 1, 0.2, 1, 1, 1, 0.466666667}},
 };
+const Row generator3[] = {
+    {"bozo noise_generator 3",
+     {0.545005764, 0.217948575, 0.78147783, 0.602188584, 0.445437007, 0.536315311, 0.331288971, 0.50505579, 0.766637793, 0.510435019, 0.414431291, 0.366422494}},
+    {"wrinkles noise_generator 3",
+     {0.637548462, 0.237244199, 0.691022005, 0.636769445, 0.552140884, 0.528343549, 0.306993789, 0.540224849, 0.794907034, 0.502732365, 0.377749327, 0.4329156}},
+    {"granite noise_generator 3",
+     {0.511458627, 0.298421056, 0.733336226, 0.479398646, 0.545002664, 0.35731211, 0.466492941, 0.261036269, 0.264989575, 0.548885183, 0.775253575, 0.501003159}},
+    {"agate noise_generator 3",
+     {0.902262582, 0.855824023, 0.169299742, 0.0188511508, 0.468179038, 0.977944425, 0.920333231, 0.0399606235, 0.840149116, 0.824483958, 0.991195736, 0.997114011}},
+    {"marble turbulence 0.5 noise_generator 3",
+     {0.054127243, 0.378707221, 0.285515808, 0.651615757, 0.452323741, 0.0519723792, 0.474177213, 0.474317343, 0.635291997, 0.0406566933, 0.0313089538, 0.752648693}},
+    {"bozo turbulence 0.4 noise_generator 3",
+     {0.426432817, 0.144465917, 0.735043493, 0.658171117, 0.468373802, 0.540585745, 0.292807883, 0.565266577, 0.705888306, 0.602317324, 0.282350429, 0.389190754}},
+};
 // clang-format on
 
 } // namespace
@@ -134,11 +148,26 @@ TEST(ParsePattern, NoiseAndShapesAsPovray) { expect_rows("pattern", "", plain); 
 TEST(ParsePattern, WavesAndListsAsPovray) { expect_rows("pattern", "", waves_and_lists); }
 TEST(ParsePattern, FractalsAsPovray) { expect_rows("pattern", "", fractals); }
 
+TEST(ParsePattern, GradientNoiseAsPovray) { expect_rows("pattern", "", generator3); }
+
+// Printed by POV-Ray 3.7.0.10 at (0.3, 0.2, 0.1) below and above #version 3.5.
+TEST(ParsePattern, OldScenesHaveTheOldNoise) {
+    const std::string print = "#debug str(F(0.3, 0.2, 0.1), 0, 6)";
+    const std::string noise = "#declare F = function { pattern { bozo } } " + print;
+    EXPECT_EQ(run("#version 3.1; " + noise), "0.209925");
+    EXPECT_EQ(run("#version 3.5; " + noise), "0.373439");
+    EXPECT_EQ(run("#version 3.1; global_settings { noise_generator 2 } " + noise), "0.373439");
+    EXPECT_EQ(run("global_settings { noise_generator 3 } #version 3.1; " + noise), "0.578736");
+}
+
 TEST(ParsePattern, NearMissesAreNamed) {
-    EXPECT_NE(first_error("#declare F = function { pattern { grannite } }").find("grannite"), std::string::npos);
-    EXPECT_NE(first_error("#declare F = function { pattern { gradient 0 } }").find("not zero"), std::string::npos);
-    EXPECT_NE(first_error("#declare F = function { pattern { bozo warp { repeat <1, 1, 0> } } }").find("one axis"),
+    EXPECT_NE(first_error("#declare F = function { pattern { grannite } }").find("grannite"),
               std::string::npos);
+    EXPECT_NE(first_error("#declare F = function { pattern { gradient 0 } }").find("not zero"),
+              std::string::npos);
+    EXPECT_NE(
+        first_error("#declare F = function { pattern { bozo warp { repeat <1, 1, 0> } } }").find("one axis"),
+        std::string::npos);
 }
 
 } // namespace pnr::test
