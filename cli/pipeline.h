@@ -12,6 +12,7 @@
 #include "core/scene.h"
 #include "core/world.h"
 #include "npr/paint.h"
+#include "parser/limits.h"
 
 #include <filesystem>
 #include <optional>
@@ -24,6 +25,16 @@ struct Wishes {
     bool maps = false;        // every intermediate must exist, also where the scene does not need it
     bool light_parts = false; // direct, indirect, caustic and specular light apart
     std::filesystem::path save_photons, load_photons; // empty: no
+    Budgets budgets;              // pixels and photons
+};
+
+// The photon map of the frame before, for the frames that show the same world.
+struct KeptPhotons {
+    bool valid = false;
+    std::uint64_t world = 0; // LoadResult::world_hash
+    Settings settings;       // photons and the seed count
+    bool normals = false;
+    PhotonMap map;
 };
 
 // All that a rendering leaves behind. Images have the picture's full size; pixels outside `window` are 0.
@@ -44,7 +55,11 @@ struct Rendering {
 // The size of the picture: what the settings say, the missing side from the camera's shape.
 PictureSize picture_size(const Camera& camera, const RenderSettings& settings);
 
-// Throws SceneError, FileError, UsageError (a crop that leaves the picture).
-Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, Passes& passes);
+// `kept` and `world_hash`: of an animation; the map is taken from there if it still holds. Throws SceneError, FileError,
+// UsageError (a crop that leaves the picture, a picture or a photon map larger than the budgets allow).
+Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, KeptPhotons& kept,
+                       std::uint64_t world_hash, Passes& passes);
+// Moves the rendering's photon map to where the next frame finds it.
+void keep_photons(Rendering& rendering, std::uint64_t world_hash, KeptPhotons& kept);
 
 } // namespace pnr

@@ -88,7 +88,7 @@ bool wants_light_parts(const Options& options) {
     });
 }
 
-int render_frame(const Options& options, const AnimationFrame& frame) {
+int render_frame(const Options& options, const AnimationFrame& frame, KeptPhotons& kept) {
     const Files files = files_of(options, frame);
     const auto& pictures = files.pictures;
     for (const fs::path& picture : pictures) check_output(picture);
@@ -106,11 +106,12 @@ int render_frame(const Options& options, const AnimationFrame& frame) {
         return exit_scene;
     return with_scene_errors(loaded.sources, [&] {
         const Wishes wishes{options.crop, !files.maps.empty(), wants_light_parts(options),
-                            options.save_photons, options.load_photons};
-        const Rendering r =
-            render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, passes);
+                            options.save_photons, options.load_photons, options.budgets};
+        Rendering r = render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, kept,
+                                   loaded.world_hash, passes);
         report_faults(r.faults);
         write_results(loaded, r, options, files, passes);
+        keep_photons(r, loaded.world_hash, kept);
         return r.stopped ? exit_signal + stop_signal() : exit_done;
     });
 }
@@ -120,8 +121,9 @@ int render_frame(const Options& options, const AnimationFrame& frame) {
 int run_render(const Options& options) {
     check_aovs(options.aovs);
     const ThreadLimit limit(options.threads);
+    KeptPhotons kept;
     for (const AnimationFrame& frame : frames_of(options)) {
-        const int code = render_frame(options, frame);
+        const int code = render_frame(options, frame, kept);
         if (code != exit_done) return code;
         if (stop_signal() != 0) return exit_signal + stop_signal(); // between two frames
     }

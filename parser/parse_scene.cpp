@@ -76,6 +76,7 @@ void parse_background(Parser& p) {
 }
 
 void parse_camera_item(Parser& p) {
+    const Untold untold(p.in);
     p.scene.camera = parse_camera(p);
     p.scene.has_camera = true;
 }
@@ -174,9 +175,11 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
     case "light_source"_kw:
         next(p);
         return parse_light_source(p);
-    case "camera"_kw:
+    case "camera"_kw: {
         next(p);
+        const Untold untold(p.in);
         return parse_camera(p);
+    }
     case "transform"_kw:
         next(p);
         return parse_transform(p);

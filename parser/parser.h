@@ -36,6 +36,7 @@ struct Parser {
     std::set<std::string, std::less<>> left_out; // features that were warned about
     // What inside() and trace() have built; the objects are kept, so that no other takes their place.
     std::map<std::shared_ptr<const DeclaredBlock>, std::shared_ptr<const Probe>> probes{};
+    std::map<std::shared_ptr<const DeclaredBlock>, std::optional<Bounds>> extents{}; // min_extent, max_extent
 };
 
 // Thrown after an error was recorded, to unwind to the nearest place that can recover (a block's end).
