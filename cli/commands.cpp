@@ -63,6 +63,7 @@ int run_program(const std::vector<std::string>& arguments) {
         if (options.command == "check") return run_check(options);
         if (options.command == "plan") return run_plan(options);
         if (options.command == "pick") return run_pick(options);
+        if (options.command == "ilic") return run_ilic(options);
         return run_render(options);
     } catch (const UsageError& error) {
         print_error(error.what());

@@ -17,5 +17,6 @@ int run_render(const Options& options);
 int run_check(const Options& options);
 int run_plan(const Options& options);
 int run_pick(const Options& options);
+int run_ilic(const Options& options);
 
 } // namespace pnr

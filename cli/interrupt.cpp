@@ -11,11 +11,14 @@ namespace {
 // A signal handler can reach nothing but such variables.
 volatile std::sig_atomic_t caught = 0;
 volatile std::sig_atomic_t gentle = 0;
+volatile std::sig_atomic_t picture_wanted = 0;
 
 void on_signal(int signal) {
     if (gentle == 0 || caught != 0) _exit(128 + signal);
     caught = signal;
 }
+
+void on_request(int) { picture_wanted = 1; }
 
 } // namespace
 
@@ -26,10 +29,18 @@ void install_signal_handlers() {
     action.sa_flags = SA_RESTART;
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
+    action.sa_handler = on_request;
+    sigaction(SIGUSR1, &action, nullptr);
     std::signal(SIGPIPE, SIG_IGN); // a reader that goes away is a failed write, not a death
 }
 
 void stop_gently() { gentle = 1; }
 int stop_signal() { return caught; }
+
+bool take_picture_request() {
+    const bool wanted = picture_wanted != 0;
+    picture_wanted = 0;
+    return wanted;
+}
 
 } // namespace pnr

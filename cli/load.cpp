@@ -24,8 +24,10 @@ LoadOptions load_options(const Options& options, const AnimationFrame& frame) {
     load.frame_number = frame.number;
     load.initial_frame = frame.first;
     load.final_frame = frame.last;
-    load.initial_clock = options.clock_first;
-    load.final_clock = options.clock_last;
+    if (options.frames) {
+        load.initial_clock = options.clock_first;
+        load.final_clock = options.clock_last;
+    }
     load.library = options.library;
     if (const char* path = std::getenv("PNR_LIBRARY_PATH")) {
         const std::string folders(path);

@@ -11,7 +11,7 @@ namespace pnr {
 
 // One picture of an animation; as it stands, the one picture of a scene that does not move.
 struct AnimationFrame {
-    int number = 0, first = 1, last = 1;
+    int number = 0, first = 0, last = 0;
     double clock = 0;
 };
 // The frames that are to be rendered; the clock runs from --clock-first at the first of --frames to --clock-last at the

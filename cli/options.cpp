@@ -160,6 +160,16 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
                         {{"draft", Quality::draft}, {"normal", Quality::normal}, {"high", Quality::high}},
                         "Rays a pixel and shadow rays a light: draft 1 to 4 and 4, normal the scene's own (4 "
                         "to 16 and 16), high 16 to 64 and 64");
+    app.add_option("--time", options.time_s,
+                   "Refine the picture in passes until so many seconds have gone by, from start to written file")
+        ->type_name("SECONDS");
+    app.add_option("--error", options.error,
+                   "Refine until 90 % of the pixels have an estimated error below this share of their light; exit "
+                   "code 5 if --time or --passes ends it before")
+        ->type_name("FRACTION");
+    app.add_option("--passes", options.passes, "Refine in so many passes; repeats a --time run bit for bit")
+        ->type_name("N")
+        ->check(CLI::Range(1, 100'000));
     add_choice<Integrator>(app, "--integrator", options.integrator,
                            {{"photons", Integrator::photons}, {"path", Integrator::path}},
                            "How photoreal light is found: the photon map, or the slow path-traced reference");
@@ -180,15 +190,16 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
                               "Do nothing if the pictures are there already");
     app.add_flag("--no-overwrite", options.no_overwrite, "Refuse to replace a picture")->excludes(skip);
     app.add_option("--antialias", options.antialias)->group(""); // POV-Ray's +A
-    app.footer("Parts for --aov: N P Z id npr.mask direct indirect caustic specular photon.density sparse "
-               "informative\n"
-               "partial. POV-Ray's options (+W640 +H480 +I +O +L +Q +A0.3 +WT2 ...) are understood too.\n\n"
+    app.footer("Parts for --aov: N P Z id npr.mask direct indirect caustic specular photon.density error.noise\n"
+               "error.bias sparse informative partial. SIGUSR1 has a run with --time, --error or --passes write the\n"
+               "picture so far. POV-Ray's options (+W640 +H480 +I +O +L +Q +A0.3 +WT2 ...) are understood too.\n\n"
                "Examples:\n"
                "  pnr render                                   the built-in scene, to default.png\n"
                "  pnr render pot.pnr -o pot.png -o pot.exr     two pictures of one rendering\n"
                "  pnr render pot.pnr -H 1024 --maps pot.maps   a larger picture, and what lies behind it\n"
                "  pnr render pot.pnr -D Turn=30 --stats -      with a declared number, statistics on "
                "standard output\n"
+               "  pnr render pot.pnr --time 20 --error 0.03    at most 20 s, less if the light is known before\n"
                "  pnr render turn.pnr --frames 1-48 -o turn.png   turn0001.png to turn0048.png, `clock` from "
                "0 to 1");
 }
@@ -219,7 +230,36 @@ void add_others(CLI::App& parent, Options& options, Words& words, std::optional<
                 "Pixels are those of the picture that `pnr render` makes with the same -W and -H.");
 
     CLI::App& help = *parent.add_subcommand("help", "Explain a command");
-    help.add_option("COMMAND", words.help, "render, check, plan or pick");
+    help.add_option("COMMAND", words.help, "render, check, plan, pick or ilic");
+}
+
+void add_ilic(CLI::App& parent, Options& options, Words& words, std::optional<ProgressMode>& progress) {
+    CLI::App& app = *parent.add_subcommand("ilic", "Paint a flat picture along its own edges");
+    IlicOptions& ilic = options.ilic;
+    app.add_option("PICTURE", ilic.picture, "PNG, JPEG, EXR or what else the image library reads")->required();
+    app.add_option("-o", words.outputs, "Write this picture, .png or .exr (default: PICTURE_painted.png)")
+        ->type_name("IMAGE")
+        ->allow_extra_args(false);
+    app.add_option("--style", ilic.style, "How paint is laid: ilic, oil, impasto, pastel, fur, wash (default: ilic)")
+        ->type_name("WORD");
+    const auto pixels = CLI::Range(0.0, 1000.0);
+    app.add_option("--length", ilic.length, "Length of a stroke, in pixels of a picture 512 high")
+        ->type_name("N")
+        ->check(pixels);
+    app.add_option("--cell", ilic.cell, "Width of a stroke, likewise; one coat")->type_name("N")->check(pixels);
+    app.add_option("--size", ilic.size, "All strokes so many times as large")
+        ->type_name("FACTOR")
+        ->check(CLI::Range(0.05, 20.0));
+    app.add_option("--seed", options.seed, "Random seed")->type_name("N");
+    app.add_option("--threads", options.threads, "Threads to use (default: all)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+    add_choice<ProgressMode>(
+        app, "--progress", progress,
+        {{"auto", ProgressMode::automatic}, {"off", ProgressMode::off}, {"json", ProgressMode::json}},
+        "Progress on standard error");
+    app.footer("Example:\n  pnr ilic photo.jpg -o painting.png --style oil --length 20\n"
+               "Strokes follow the picture's edges [Wang and Lee 2003]; paint in space is `pnr render`'s.");
 }
 
 void finish_options(Options& options, const Words& words) {
@@ -254,6 +294,10 @@ void finish_options(Options& options, const Words& words) {
     if (options.subset && !options.frames) throw UsageError("--subset: which frames are there? --frames says it");
     if (options.exposure && !(std::abs(*options.exposure) <= 100))
         throw UsageError("--exposure: a number of stops from -100 to 100 is expected");
+    if (options.time_s && !(*options.time_s > 0 && *options.time_s <= 1e7))
+        throw UsageError("--time: a number of seconds above 0 is expected");
+    if (options.error && !(*options.error > 0 && *options.error < 1e3))
+        throw UsageError("--error: a fraction above 0 is expected, such as 0.03");
     options.aovs = split(words.aov, ',');
     options.prune = !words.no_prune;
     if (!words.at.empty()) options.at = to_pixel(words.at, "--at");
@@ -293,9 +337,10 @@ struct Parsing {
         app.require_subcommand(1);
         add_render(app, options, words, progress);
         add_others(app, options, words, format);
+        add_ilic(app, options, words, progress);
         app.footer("Exit codes: 0 done, 1 render failed, 2 usage, 3 error in the scene, 4 file not read or "
                    "written,\n"
-                   "130 or 143 stopped by a signal.");
+                   "5 done, but --error was missed, 130 or 143 stopped by a signal.");
     }
     Parsing(const Parsing&) = delete; // the app points into it
     Parsing& operator=(const Parsing&) = delete;

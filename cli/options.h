@@ -31,8 +31,14 @@ struct FrameRange {
 // What --quality changes: rays a pixel and shadow rays a light (apply_quality in load.cpp).
 enum class Quality { draft, normal, high };
 
+// Of `pnr ilic`; unset: the style's own.
+struct IlicOptions {
+    std::string picture, style;
+    std::optional<double> length, cell, size;
+};
+
 struct Options {
-    std::string command;                        // render, check, plan, pick
+    std::string command;                        // render, check, plan, pick, ilic
     std::vector<std::string> scenes;            // empty: the embedded default scene; "-": standard input
     std::vector<std::filesystem::path> outputs; // "-": PNG to standard output
     std::optional<int> width, height;
@@ -55,9 +61,12 @@ struct Options {
     std::optional<double> antialias; // POV-Ray's +A threshold; 0: one sample a pixel
     std::filesystem::path maps, stats, save_photons, load_photons; // empty: not asked for
     std::vector<std::string> aovs;
+    std::optional<double> time_s, error; // --time, --error (a fraction)
+    std::optional<int> passes;
     ProgressMode progress = ProgressMode::automatic;
     bool prune = true, skip_existing = false, no_overwrite = false, werror = false;
     TextFormat format = TextFormat::text;
+    IlicOptions ilic;
     std::array<int, 2> at{}; // pick: pixels
     std::optional<std::array<int, 2>> to;
 };

@@ -42,6 +42,12 @@ ImagePart density_part(const Rendering& r) {
     });
 }
 
+ImagePart error_part(const Rendering& r, const std::string& name, const Image<float>& error) {
+    return make_part({name}, pixel_count(r), [&](std::size_t i, std::vector<float>& out) {
+        out.push_back(error.empty() ? 0.0f : error.pixels[i]);
+    });
+}
+
 ImagePart mask_part(const Rendering& r) {
     return make_part({"npr.mask"}, pixel_count(r), [&](std::size_t i, std::vector<float>& out) {
         out.push_back(r.gbuffer.coverage.pixels[i]);
@@ -74,6 +80,8 @@ const std::vector<Aov>& aovs() {
         {"caustic", [](R r) { return color_part(r, r.rendered.parts.caustic); }},
         {"specular", [](R r) { return color_part(r, r.rendered.parts.specular); }},
         {"photon.density", density_part},
+        {"error.noise", [](R r) { return error_part(r, "error.noise", r.error.noise); }},
+        {"error.bias", [](R r) { return error_part(r, "error.bias", r.error.bias); }},
         {"sparse", sparse_part},
         {"informative", informative_part},
         {"partial", [](R r) { return layer_part(r.paint.layer); }},

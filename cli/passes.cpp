@@ -4,8 +4,12 @@
 #include "cli/interrupt.h"
 #include "cli/progress_view.h"
 
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
 #include <sys/resource.h>
 #include <time.h>
+#include <unistd.h>
 
 namespace pnr {
 
@@ -23,7 +27,26 @@ double peak_rss_mb() {
     return static_cast<double>(usage.ru_maxrss) / 1024;
 }
 
+// The process's start as the kernel keeps it, in clock ticks since the machine's own: what loading the program took counts.
+double process_start() {
+    std::ifstream file("/proc/self/stat");
+    std::string line;
+    std::getline(file, line);
+    std::istringstream fields(line.substr(std::min(line.rfind(')') + 2, line.size())));
+    std::string field;
+    for (int i = 3; i <= 22 && fields >> field; ++i) {}
+    const double ticks = std::atof(field.c_str());
+    const double start = ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+    const double now = clock_seconds(CLOCK_BOOTTIME);
+    return start > 0 && start <= now && now - start < 60 ? start : now;
+}
+
 } // namespace
+
+double Passes::elapsed() {
+    static const double started = process_start();
+    return clock_seconds(CLOCK_BOOTTIME) - started;
+}
 
 const std::vector<std::string>& pass_names() {
     static const std::vector<std::string> names{"parse",   "build",  "photons", "kdtree",
@@ -49,9 +72,9 @@ Passes::Running::~Running() { passes.finish(pass); }
 
 Progress Passes::progress_of(const std::string& name) {
     ProgressView* view = view_.get();
-    return [view, name](std::int64_t done, std::int64_t total) {
+    return [this, view, name](std::int64_t done, std::int64_t total) {
         view->update(name, static_cast<double>(done) / static_cast<double>(total));
-        return stop_signal() == 0;
+        return stop_signal() == 0 && !past_deadline();
     };
 }
 

@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 
 #include <chrono>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -42,6 +43,12 @@ public:
     }
 
     const std::vector<PassTime>& times() const { return times_; } // one entry a name, in pass_names' order
+    // Seconds of wall time since the process began.
+    static double elapsed();
+    // From now on passes are told to stop when so many seconds have gone by since the process began; infinity: never.
+    void set_deadline(double elapsed_s) { deadline_ = elapsed_s; }
+    bool past_deadline() const { return elapsed() > deadline_; }
+
     // A line that does not break the bar; printed unless progress is off or JSON.
     void note(const std::string& line);
 
@@ -60,6 +67,7 @@ private:
     std::unique_ptr<ProgressView> view_;
     std::vector<PassTime> times_;
     double wall_mark_ = 0, cpu_mark_ = 0;
+    double deadline_ = std::numeric_limits<double>::infinity();
 };
 
 } // namespace pnr

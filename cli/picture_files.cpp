@@ -73,6 +73,13 @@ std::vector<unsigned char> make_exr(const Scene& scene, const Rendering& r,
     return encode_exr(image);
 }
 
+// To a file, whole or not at all, or for `-` to standard output.
+void write_bytes(const std::vector<unsigned char>& bytes, const fs::path& output) {
+    if (output != "-") return write_file_atomically(output, bytes);
+    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
+        throw FileError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+}
+
 } // namespace
 
 void check_writable(const fs::path& file) {
@@ -99,9 +106,16 @@ void write_picture(const Scene& scene, const Rendering& r, const std::vector<std
     if (r.picture.color.empty()) return;
     const std::vector<unsigned char> bytes =
         is_exr(output) ? make_exr(scene, r, aovs, times) : make_png(scene, r);
-    if (output != "-") return write_file_atomically(output, bytes);
-    if (std::fwrite(bytes.data(), 1, bytes.size(), stdout) != bytes.size() || std::fflush(stdout) != 0)
-        throw FileError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+    write_bytes(bytes, output);
+}
+
+void write_flat_picture(const Image<Color>& picture, const fs::path& output) {
+    const Metadata metadata{{"Software", fmt::format("pnr {}", version())}};
+    if (!is_exr(output)) return write_bytes(encode_png(picture, {}, metadata), output);
+    ImagePart part{"", {"R", "G", "B"}, {}, true};
+    for (const Color& c : picture.pixels) part.data.insert(part.data.end(), {c.x, c.y, c.z});
+    write_bytes(encode_exr({picture.width, picture.height, {0, 0, picture.width, picture.height}, {part}, metadata}),
+                output);
 }
 
 } // namespace pnr

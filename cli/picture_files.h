@@ -19,4 +19,7 @@ void check_output(const std::filesystem::path& output);
 void write_picture(const Scene& scene, const Rendering& r, const std::vector<std::string>& aovs,
                    const std::vector<PassTime>& times, const std::filesystem::path& output);
 
+// A picture that comes from no scene, linear light; the same rules for names and errors.
+void write_flat_picture(const Image<Color>& picture, const std::filesystem::path& output);
+
 } // namespace pnr

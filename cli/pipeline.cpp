@@ -3,6 +3,7 @@
 
 #include "cli/interrupt.h"
 #include "core/emission.h"
+#include "cli/refine.h"
 #include "core/irradiance_field.h"
 #include "core/trace_photons.h"
 
@@ -30,28 +31,51 @@ std::vector<std::string> expected_passes(const Plan& plan, const Wishes& wishes)
     return names;
 }
 
-// Pass 1 [LW10 3.1], or a map that an earlier run has kept.
-PhotonMap make_photons(const Scene& scene, const Rendering& r, const Wishes& wishes, Passes& passes) {
-    PhotonMap map = passes.run("photons", [&](const Progress& progress) {
-        if (!wishes.load_photons.empty()) return load_photons(scene.hash, wishes.load_photons);
-        if (!r.plan.photons) return PhotonMap{};
-        return trace_photons(r.world, r.settings.photons, r.settings.render.seed, 0, r.plan.normals,
-                             progress);
-    });
+// The first photon map: traced, or one that an earlier run has kept.
+PhotonMap first_photons(const Scene& scene, const Rendering& r, const Wishes& wishes, bool field, Passes& passes) {
+    PhotonMap map;
+    if (wishes.load_photons.empty()) {
+        map = make_photons(r, r.settings, 0, 1, field, passes);
+    } else {
+        map = passes.run("photons", [&](const Progress&) { return load_photons(scene.hash, wishes.load_photons); });
+        passes.run("kdtree", [&](const Progress&) {
+            if (r.plan.kdtree && map.tree.count == 0) build_photon_tree(map);
+        });
+        if (field) add_field(r, 1, map, passes);
+    }
     if (!wishes.save_photons.empty())
         passes.run("write", [&](const Progress&) { save_photons(map, scene.hash, wishes.save_photons); });
-    if (r.plan.kdtree)
-        passes.run("kdtree", [&](const Progress& progress) {
-            build_photon_tree(map);
-            if (r.world.illumination == Illumination::photon_mapped)
-                map.field = make_irradiance_field(r.world, map, progress);
-        });
     return map;
 }
 
-// Pass 2 [LW10 3.2]: sparse map, orientation, informative map, ILIC.
-void paint(Rendering& r, Passes& passes) {
-    PaintResult& p = r.paint;
+} // namespace
+
+PhotonMap make_photons(const Rendering& r, const Settings& settings, int batch, double shrink, bool field,
+                       Passes& passes) {
+    PhotonMap map = passes.run("photons", [&](const Progress& progress) {
+        if (!r.plan.photons) return PhotonMap{};
+        return trace_photons(r.world, settings.photons, r.settings.render.seed, batch, batch == 0 && r.plan.normals,
+                             progress);
+    });
+    if (!r.plan.kdtree) return map;
+    passes.run("kdtree", [&](const Progress&) {
+        build_photon_tree(map);
+        map.radius *= static_cast<float>(std::sqrt(shrink));
+        map.caustic_radius *= static_cast<float>(std::sqrt(shrink));
+    });
+    if (field) add_field(r, shrink, map, passes);
+    return map;
+}
+
+void add_field(const Rendering& r, double shrink, PhotonMap& map, Passes& passes) {
+    if (!r.plan.kdtree || r.world.illumination != Illumination::photon_mapped) return;
+    passes.run("kdtree", [&](const Progress& progress) {
+        map.field = make_irradiance_field(r.world, map, progress, shrink);
+    });
+}
+
+PaintResult paint(const Rendering& r, Passes& passes) {
+    PaintResult p;
     const std::uint64_t seed = r.settings.render.seed;
     p.sparse = passes.run("sparse", [&](const Progress& progress) {
         return make_sparse_map(r.world, r.gbuffer, r.photons, r.settings, progress);
@@ -67,7 +91,10 @@ void paint(Rendering& r, Passes& passes) {
     p.layer = passes.run("ilic", [&](const Progress& progress) {
         return convolve(p.informative, p.sparse, r.world, r.gbuffer, seed, progress);
     });
+    return p;
 }
+
+namespace {
 
 // The two layers as one, without a value that no file can hold.
 Layer put_together(const Layer& painted, const Layer& photoreal, const PixelRect& window,
@@ -166,7 +193,7 @@ Rendering render_scene(const Scene& scene, const Settings& settings, const Wishe
 
     r.world = passes.run("build", [&](const Progress&) { return build_world(scene, r.settings); });
     r.plan = make_plan(r.world, r.settings, wishes.maps);
-    const bool reuse = still_holds(kept, world_hash, r.settings, r.plan);
+    const bool reuse = !wishes.refinement && still_holds(kept, world_hash, r.settings, r.plan);
     if (reuse)
         r.plan.left_out.push_back({"photons", "only the camera has moved since the frame before: its map is used again"});
     else if (r.plan.photons && wishes.load_photons.empty())
@@ -177,27 +204,35 @@ Rendering render_scene(const Scene& scene, const Settings& settings, const Wishe
     // Strokes and fills reach across the picture, so a crop of a painting is cut from the whole painting.
     const bool all = r.plan.paint || wishes.maps;
     try {
-        r.photons = reuse ? take_kept(r, kept, passes) : make_photons(scene, r, wishes, passes);
+        r.photons = reuse ? take_kept(r, kept, passes) : first_photons(scene, r, wishes, !wishes.refinement, passes);
         kept.valid = false;
         r.gbuffer = passes.run("gbuffer", [&](const Progress& progress) {
             return make_gbuffer(r.world, view, all ? whole(view) : grow(r.window, 1, view.width, view.height),
                                 r.settings.render, progress);
         });
-        if (r.plan.paint) paint(r, passes);
-        r.rendered = passes.run("render", [&](const Progress& progress) {
-            return render(r.world, r.gbuffer, r.photons, r.settings, r.window, wishes.light_parts, progress);
-        });
-        r.stopped = r.rendered.stopped;
+        if (wishes.refinement) {
+            refine(r, wishes, passes);
+        } else {
+            if (r.plan.paint) r.paint = paint(r, passes);
+            r.rendered = passes.run("render", [&](const Progress& progress) {
+                return render(r.world, r.gbuffer, r.photons, r.settings, r.window, wishes.light_parts, progress);
+            });
+            r.stopped = r.rendered.stopped;
+        }
     } catch (const Interrupted&) {
         r.stopped = true;
     }
+    complete_picture(r);
+    return r;
+}
+
+void complete_picture(Rendering& r) {
     r.faults = r.rendered.faults;
     const bool nothing = r.paint.layer.color.empty() && r.rendered.layer.color.empty();
-    if (r.stopped && nothing) return r;
-    if (r.paint.layer.color.empty()) r.paint.layer = empty_layer(view);
-    if (r.rendered.layer.color.empty()) r.rendered.layer = empty_layer(view);
+    if (r.stopped && nothing) return;
+    if (r.paint.layer.color.empty()) r.paint.layer = empty_layer(r.gbuffer.view);
+    if (r.rendered.layer.color.empty()) r.rendered.layer = empty_layer(r.gbuffer.view);
     r.picture = put_together(r.paint.layer, r.rendered.layer, r.window, r.faults);
-    return r;
 }
 
 } // namespace pnr

@@ -8,6 +8,7 @@
 #include "core/gbuffer.h"
 #include "core/photon_map.h"
 #include "core/plan.h"
+#include "core/progressive.h"
 #include "core/render.h"
 #include "core/scene.h"
 #include "core/world.h"
@@ -15,9 +16,17 @@
 #include "parser/limits.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 namespace pnr {
+
+// `--time`, `--error`, `--passes`: render in passes until the first of these says enough.
+struct Refinement {
+    std::optional<double> time_s; // of the whole run, from the process's start to the written file
+    std::optional<double> error;  // progressive.h: relative_error_90
+    std::optional<int> passes;
+};
 
 // What is wanted beside the picture.
 struct Wishes {
@@ -25,7 +34,10 @@ struct Wishes {
     bool maps = false;        // every intermediate must exist, also where the scene does not need it
     bool light_parts = false; // direct, indirect, caustic and specular light apart
     std::filesystem::path save_photons, load_photons; // empty: no
-    Budgets budgets;              // pixels and photons
+    std::optional<Refinement> refinement;
+    // Called between two progressive passes when a signal asks for the picture so far.
+    std::function<void(const struct Rendering&)> show;
+    Budgets budgets; // pixels and photons
 };
 
 // The photon map of the frame before, for the frames that show the same world.
@@ -49,11 +61,25 @@ struct Rendering {
     RenderResult rendered;
     Layer picture; // linear; empty if the passes were stopped before there was anything to show
     SampleFaults faults;
+    ProgressiveSum progressive; // 0 passes if the picture was rendered in one go
+    int passes_done = 0;        // what --passes must be to have this picture again
+    double asked_error = 0;     // --error; 0: not asked for
+    ErrorEstimate error;        // empty without enough passes
+    double reached_error = infinity; // relative_error_90 of it
     bool stopped = false; // by a signal: `picture` shows what there was
 };
 
 // The size of the picture: what the settings say, the missing side from the camera's shape.
 PictureSize picture_size(const Camera& camera, const RenderSettings& settings);
+
+// Puts the two layers together as r.picture and counts what no file can hold.
+void complete_picture(Rendering& r);
+// Pass 2 [LW10 3.2]: sparse map, orientation, informative map, ILIC.
+PaintResult paint(const Rendering& r, Passes& passes);
+// Pass 1 [LW10 3.1] and its kd-tree. `shrink`: see progressive.h.
+PhotonMap make_photons(const Rendering& r, const Settings& settings, int batch, double shrink, bool field, Passes& passes);
+// Smooth indirect light over a map that has its tree, where the scene needs it.
+void add_field(const Rendering& r, double shrink, PhotonMap& map, Passes& passes);
 
 // `kept` and `world_hash`: of an animation; the map is taken from there if it still holds. Throws SceneError, FileError,
 // UsageError (a crop that leaves the picture, a picture or a photon map larger than the budgets allow).

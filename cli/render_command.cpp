@@ -88,6 +88,30 @@ bool wants_light_parts(const Options& options) {
     });
 }
 
+bool wants_error(const Options& options) {
+    return std::any_of(options.aovs.begin(), options.aovs.end(),
+                       [](const std::string& name) { return name.starts_with("error."); });
+}
+
+// Error parts alone ask for passes too: three batches, the fewest that tell bias from noise.
+std::optional<Refinement> refinement_of(const Options& options) {
+    constexpr int fewest_for_error = 13;
+    if (options.time_s || options.error || options.passes)
+        return Refinement{options.time_s, options.error, options.passes};
+    if (wants_error(options)) return Refinement{{}, {}, fewest_for_error};
+    return {};
+}
+
+int code_of(const Rendering& r, const Options& options) {
+    if (r.stopped) return exit_signal + stop_signal();
+    if (!options.error || r.reached_error < *options.error) return exit_done;
+    print_warning(r.error.empty()
+                      ? "--error: too few passes were done to know the error"
+                      : fmt::format("--error {}: missed; 90 % of the pixels are known within {:.2g} %",
+                                    *options.error, 100 * r.reached_error));
+    return exit_missed;
+}
+
 int render_frame(const Options& options, const AnimationFrame& frame, KeptPhotons& kept) {
     const Files files = files_of(options, frame);
     const auto& pictures = files.pictures;
@@ -105,14 +129,20 @@ int render_frame(const Options& options, const AnimationFrame& frame, KeptPhoton
     if (!passes.run("parse", [&](const Progress&) { return load_and_report(options, frame, loaded); }))
         return exit_scene;
     return with_scene_errors(loaded.sources, [&] {
-        const Wishes wishes{options.crop, !files.maps.empty(), wants_light_parts(options),
-                            options.save_photons, options.load_photons, options.budgets};
+        const auto write_pictures = [&](const Rendering& r) {
+            for (const fs::path& picture : pictures)
+                write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
+        };
+        const Wishes wishes{options.crop,         !files.maps.empty(),     wants_light_parts(options),
+                            options.save_photons, options.load_photons,    refinement_of(options),
+                            write_pictures,       options.budgets};
         Rendering r = render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, kept,
                                    loaded.world_hash, passes);
         report_faults(r.faults);
         write_results(loaded, r, options, files, passes);
-        keep_photons(r, loaded.world_hash, kept);
-        return r.stopped ? exit_signal + stop_signal() : exit_done;
+        const int code = code_of(r, options);
+        if (!wishes.refinement) keep_photons(r, loaded.world_hash, kept);
+        return code;
     });
 }
 
@@ -122,12 +152,14 @@ int run_render(const Options& options) {
     check_aovs(options.aovs);
     const ThreadLimit limit(options.threads);
     KeptPhotons kept;
+    int result = exit_done;
     for (const AnimationFrame& frame : frames_of(options)) {
         const int code = render_frame(options, frame, kept);
-        if (code != exit_done) return code;
+        if (code != exit_done && code != exit_missed) return code;
+        if (code == exit_missed) result = code;
         if (stop_signal() != 0) return exit_signal + stop_signal(); // between two frames
     }
-    return exit_done;
+    return result;
 }
 
 } // namespace pnr

@@ -17,6 +17,7 @@ enum ExitCode {
     exit_usage = 2,
     exit_scene = 3,
     exit_file = 4,
+    exit_missed = 5, // done, but --error was asked for and missed
     exit_signal = 128
 };
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pnr {
 
@@ -63,6 +64,29 @@ Json plan_object(const Plan& plan) {
     return {{"used", plan.used}, {"left_out", left_out}};
 }
 
+// Root of the mean square over the window.
+double rms(const Image<float>& image, const PixelRect& window) {
+    if (image.empty()) return 0;
+    double sum = 0;
+    for (int y = window.y0; y < window.y1; ++y)
+        for (int x = window.x0; x < window.x1; ++x)
+            sum += static_cast<double>(image.at(x, y)) * static_cast<double>(image.at(x, y));
+    return std::sqrt(sum / (static_cast<double>(window.x1 - window.x0) * (window.y1 - window.y0)));
+}
+
+// `reached`: 90 % of the pixels have an estimated error below this times (L + 0.01 mean L); noise and bias: of the
+// luminance, root mean square. 0 while nothing is known: fewer than two whole batches of passes.
+Json error_object(const Rendering& r) {
+    const bool known = !r.error.empty();
+    return {{"asked", r.asked_error},
+            {"reached", known ? r.reached_error : 0.0},
+            {"known", known},
+            {"passes", r.passes_done},
+            {"batches", r.progressive.batches},
+            {"noise_rms", rms(r.error.noise, r.window)},
+            {"bias_rms", rms(r.error.bias, r.window)}};
+}
+
 } // namespace
 
 std::string stats_json(const Scene& scene, const Rendering& r, const std::vector<PassTime>& times,
@@ -88,7 +112,7 @@ std::string stats_json(const Scene& scene, const Rendering& r, const std::vector
         {"rays", ray_counts(r)},
         {"numbers", {{"nan", r.faults.nan}, {"inf", r.faults.inf}, {"negative", r.faults.negative}}},
         {"plan", plan_object(r.plan)},
-        {"error", {{"asked", 0}, {"reached", 0}}},
+        {"error", error_object(r)},
         {"warnings", warnings},
     };
     return stats.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";

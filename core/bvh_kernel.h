@@ -16,7 +16,7 @@ class ExactTriangles;
 inline constexpr std::uint32_t no_primitive = 0xffffffffu;
 inline constexpr int bvh_max_depth = 72; // of the binary tree, which bounds the stack
 
-// Up to B triangles, lane by lane; lanes that are left over repeat the first.
+// Up to B triangles, lane by lane; lanes that are left over repeat the first's corners, and have no number.
 template <int B>
 struct alignas(64) TriangleBlock {
     float corner[3][3][B]; // [corner][axis][lane]
@@ -38,9 +38,8 @@ inline constexpr std::uint32_t leaf_bit = 0x80000000u, other_bit = 0x40000000u, 
 // Direction scaled by a power of two so that its largest component is in [1, 2), t accordingly; |origin| is
 // below 16.
 struct KernelRay {
-    double origin[3];
-    double direction[3];
-    double t_min, t_max;
+    double origin[3], t_min; // in this order: the kernels read four numbers at once
+    double direction[3], t_max;
 };
 
 struct KernelHit {
@@ -54,13 +53,13 @@ struct BvhView {
     const char* tree = nullptr; // WideNode<W>s and TriangleBlock<B>s, side by side as they are met
     const ExactTriangles* triangles = nullptr;
     std::uint32_t root = 0; // a child reference
-    float extent = 0;       // the largest coordinate of a triangle's corner
+    float extent = 0;       // the largest coordinate of a box
 };
 
 // The rest of a ray query, by function so that the kernel needs no type of the scene. `meets` tries the other
 // primitive `index` and, where it finds a closer hit (or one of equal t and smaller number) than `hit`,
-// overwrites it and returns true. `sees` (may be null: all) tells whether the ray meets the triangle at t; it is asked
-// about those that would be the best hit so far, in any order.
+// overwrites it and returns true. `sees` (may be null: all) tells whether the ray meets the triangle at t; it
+// is asked about those that would be the best hit so far, in any order.
 struct KernelCalls {
     const void* context = nullptr;
     bool (*meets)(const void* context, std::uint32_t index, const KernelRay& ray, KernelHit& hit) = nullptr;
@@ -80,6 +79,6 @@ struct BvhKernel {
 const BvhKernel* scalar_kernel();
 const BvhKernel* baseline_kernel(); // 4 wide: SSE2, NEON
 const BvhKernel* avx2_kernel();     // 8 wide
-const BvhKernel* avx512_kernel();   // 16 wide
+const BvhKernel* avx512_kernel();   // 8 wide, with twice the registers
 
 } // namespace pnr

@@ -4,29 +4,37 @@
 // boxes are met:
 //
 // - Whether a line meets a triangle is decided exactly. The edge functions of Woop, Benthin and Wald 2013, in
-// float,
-//   are a filter. Let u = 2^-24, S the largest |x| and |y| of the sheared corners, |o| of the origin, and Z
-//   <= |o| + the largest coordinate of all triangles, so that |z| <= Z. Each sheared coordinate is off by
-//   less than d = 4u(S + Z + |o|/2): the origin was rounded (u|o|), the corners were moved (u), the shear was
-//   rounded, multiplied and subtracted (4u Z + 2u S). So an edge function, a difference of two products, is
-//   off by less than 4 S d + 2 d^2 + 4u S^2 <= 5 d (S + d); 6 allows for the rounding of the bound itself.
-//   Signs beyond it are certain. The others are computed once more in double, with the same bound for u =
-//   2^-53 (times 4, for the second point that CGAL is given is rounded too); those still open are decided by
-//   CGAL's exact predicate.
+//   float, are a filter. Let u = 2^-24, S the largest |x| and |y| of the sheared corners, |o| of the origin,
+//   and Z <= |o| + the largest coordinate of all boxes, so that |z| <= Z. Each sheared coordinate is off by
+//   less than d = 7u(S + Z + |o|/2): the origin was rounded (2u|o|, once for z), the corner moved (u(S + Z)
+//   and uZ), the shear made of a rounded direction and its rounded reciprocal (4uZ), multiplied (uZ) and
+//   subtracted (uS). So an edge function, a difference of two products, is off by less than 4 S d + 2 d^2 +
+//   4u S^2 <= 5 d (S + d); 6 allows for the rounding of the bound itself. Signs beyond it are certain. The
+//   others are computed once more in double, with the same bound for u = 2^-53 (times 4, for the second point
+//   that CGAL is given is rounded too); those still open are decided by CGAL's exact predicate.
 // - t comes from the triangle's plane in double. Of all hits in (t_min, t_max) the smallest t wins, of equal
-// t the
-//   smallest primitive.
-// - A box is passed over only if it can hold no such hit. A slab's t is off by at most 4 roundings
-// (subtraction,
-//   direction, reciprocal, product), after the origin has been moved by the bound of its own rounding to
-//   either side; so comparing with the far side times 1 + 10u is safe [Ize 2013, "Robust BVH ray traversal",
-//   with 3 roundings]. t in double is clamped to the triangle's own box where its rounding could count.
-// No fused multiply-add (-ffp-contract=off): it would round differently from path to path.
+//   t the smallest primitive.
+// - A box is passed over only if it can hold no such hit. A slab at b has t = (b - o) / d; computed is b i -
+// c
+//   with i = 1/d and c = o' i, o' being the origin moved by m to one side. Whether or not the product is
+//   fused with the difference, and c being rounded, that equals (b - o'') i with |o'' - o'| <= u|b| + u|o'|.
+//   The origin itself was rounded (u|o|) and so was o' (u|o'|): m = 4u|o| + 2u max|b| keeps o'' on its side
+//   of o, so that what is left are relative errors, of the direction, the reciprocal and the last operation
+//   (3u). They are allowed for at the far side, as there is no saying which way the near one goes: t_far (1 +
+//   12u)
+//   >= t_near for every box that is met [Ize 2013, "Robust BVH ray traversal"]. The same factor on t_best
+//   covers its rounding. m has a floor, and directions another, so that a ray along a slab, of either zero,
+//   neither overflows nor misses: over any t that matters it moves less than m across. t in double is clamped
+//   to the triangle's own box where its rounding could count.
+// No product of an edge test is fused with a sum (-ffp-contract=off): the filter's bound does not count with
+// it. In the box tests it may be: they only pass over what holds no hit.
 #pragma once
 
 #include "core/bvh_kernel.h"
 #include "core/bvh_lanes.h"
 #include "core/exact.h"
+
+#include <cstddef>
 
 namespace pnr {
 namespace {
@@ -39,62 +47,59 @@ struct Query {
     const KernelRay& ray;
     const KernelCalls& calls;
     KernelHit& hit;
-    // The ray in float.
-    float near_origin[3], far_origin[3]; // moved against and along the ray's sense by the origin's rounding
-    float inverse[3], far_inverse[3];    // the latter times `widen`
+    // The ray in float, axis by axis: a slab at b is entered at b times `inverse` minus `near`, and left at b
+    // times `far_inverse` minus `far`.
+    alignas(16) float origin[4], direction[4], inverse[4], near[4], far_inverse[4], far[4];
     int near_row[3], far_row[3];
-    float t_min;
-    float t_best; // at least hit.t, times `widen`
+    float t_min, t_after, t_before; // less than t_min; more than that, and less than t_max
+    float t_best;                   // at least hit.t, times `widen`
     // The shear that makes the ray the z axis [Woop et al. 2013].
     int x, y, z;
-    float origin[3], shear_x, shear_y, scale;
-    double precise_shear_x, precise_shear_y;
+    float shear_x, shear_y, scale;
     float reach, slack; // Z + |o|/2 of the filter; the origin's rounding in units of t
 
     Query(const BvhView& b, const KernelRay& r, const KernelCalls& c, KernelHit& h);
-    void found_t() { t_best = round_up(hit.t) * widen; } // t >= 0
-    static float round_up(double t) {
-        const float f = static_cast<float>(t);
-        return static_cast<double>(f) < t ? f * (1 + 2 * unit) + 0x1p-126f : f;
-    }
+    void found_t() { t_best = static_cast<float>(hit.t) * widen + 0x1p-126f; } // t >= 0
 };
 
-Query::Query(const BvhView& b, const KernelRay& r, const KernelCalls& c, KernelHit& h)
+// No branches: the signs of rays are as good as random.
+inline Query::Query(const BvhView& b, const KernelRay& r, const KernelCalls& c, KernelHit& h)
     : bvh(b), ray(r), calls(c), hit(h) {
-    float largest = 0;
+    static_assert(offsetof(KernelRay, t_min) == 3 * sizeof(double));
+    using Four = Lanes<4>;
+    const Four o = Four::rounded(r.origin), d = Four::rounded(r.direction);
+    const Four size = abs(o), along = abs(d);
+    const Four moved = copy_sign(size * Four::all(4 * unit) + Four::all(2 * unit * b.extent + 0x1p-50f), d);
+    const Four inv = Four::all(1) / copy_sign(max(min(along, Four::all(2)), Four::all(0x1p-64f)), d);
+    const Four far_inv = inv * Four::all(widen);
+    o.store(origin);
+    d.store(direction);
+    inv.store(inverse);
+    far_inv.store(far_inverse);
+    ((o + moved) * inv).store(near);
+    ((o - moved) * far_inv).store(far);
+    const int signs = static_cast<int>(negative(d));
     for (int k = 0; k < 3; ++k) {
-        const float o = static_cast<float>(r.origin[k]), d = static_cast<float>(r.direction[k]);
-        const float size = __builtin_fabsf(o);
-        largest = size > largest ? size : largest;
-        // The floor keeps slabs right for directions that are almost, or quite, along them: over any t that
-        // matters such a ray moves less than that across.
-        const float moved = 2 * unit * size + 0x1p-50f;
-        const bool backwards = d < 0;
-        origin[k] = o;
-        near_origin[k] = backwards ? o - moved : o + moved;
-        far_origin[k] = backwards ? o + moved : o - moved;
-        const float least = 0x1p-64f;
-        inverse[k] = 1 / (__builtin_fabsf(d) < least ? (backwards ? -least : least) : d);
-        far_inverse[k] = inverse[k] * widen;
-        near_row[k] = backwards ? 3 + k : k;
-        far_row[k] = backwards ? k : 3 + k;
+        near_row[k] = k + 3 * (signs >> k & 1);
+        far_row[k] = 3 + 2 * k - near_row[k];
     }
-    const double ax = __builtin_fabs(r.direction[0]), ay = __builtin_fabs(r.direction[1]),
-                 az = __builtin_fabs(r.direction[2]);
-    z = ax > ay ? (ax > az ? 0 : 2) : (ay > az ? 1 : 2);
-    x = z == 2 ? 0 : z + 1;
-    y = x == 2 ? 0 : x + 1;
-    const double along = 1 / r.direction[z];
-    precise_shear_x = r.direction[x] * along;
-    precise_shear_y = r.direction[y] * along;
-    shear_x = static_cast<float>(precise_shear_x);
-    shear_y = static_cast<float>(precise_shear_y);
-    scale = static_cast<float>(along);
+    static constexpr std::uint8_t longest[8] = {0, 0, 1, 0, 2, 2, 1, 0}; // by y <= x, z <= y, x <= z
+    z = longest[less_equal(turned(along), along) & 7u];
+    x = (1 << z) & 3; // z + 1
+    y = (1 << x) & 3;
+    scale = inverse[z];
+    shear_x = direction[x] * scale;
+    shear_y = direction[y] * scale;
+    alignas(16) float most[4];
+    max(max(size, turned(size)), turned(turned(size))).store(most);
+    const float largest = most[0];
     reach =
         (b.extent + 1.5f * largest) * (1 + 4 * unit) + 0x1p-26f; // the floor keeps the bound above underflow
     slack = (4 * unit * largest + 0x1p-50f) * __builtin_fabsf(scale);
-    t_min = static_cast<float>(r.t_min);
-    t_min = (t_min > 0 ? t_min * (1 - 2 * unit) : t_min * (1 + 2 * unit)) - 0x1p-126f;
+    const float rounding = __builtin_fabsf(origin[3]) * 2 * unit + 0x1p-126f;
+    t_min = origin[3] - rounding;
+    t_after = origin[3] + rounding;
+    t_before = direction[3] * (1 - 2 * unit);
     found_t();
 }
 
@@ -149,14 +154,16 @@ enum class Side { out, in, open };
 template <int B>
 Side decide_in_double(const Query& q, const TriangleBlock<B>& block, int lane) {
     double v[3][2];
+    const double* d3 = q.ray.direction;
+    const double shear_x = d3[q.x] / d3[q.z], shear_y = d3[q.y] / d3[q.z];
     double s = 0;
     for (int i = 0; i < 3; ++i) {
         const auto from_origin = [&](int axis) {
             return static_cast<double>(block.corner[i][axis][lane]) - q.ray.origin[axis];
         };
         const double z = from_origin(q.z);
-        v[i][0] = from_origin(q.x) - q.precise_shear_x * z;
-        v[i][1] = from_origin(q.y) - q.precise_shear_y * z;
+        v[i][0] = from_origin(q.x) - shear_x * z;
+        v[i][1] = from_origin(q.y) - shear_y * z;
         for (const double c : v[i]) s = __builtin_fabs(c) > s ? __builtin_fabs(c) : s;
     }
     const double d = 16 * 0x1p-53 * (s + static_cast<double>(q.reach)), bound = 6 * d * (s + d);
@@ -182,73 +189,123 @@ bool decide(const Query& q, const TriangleBlock<B>& block, int lane) {
     return q.bvh.triangles->meets_line(block.triangle[lane], q.ray.origin, second);
 }
 
-// B triangles. True if a hit was taken.
+// Which of a block's triangles the line may meet at a t that is wanted; of those, which it surely meets, and
+// at which of them t surely lies within the query's limits.
+struct Met {
+    unsigned open, sure, between;
+};
+
+// What is constant for a ray's way through all blocks.
 template <int B>
-bool meet_block(Query& q, const TriangleBlock<B>& block) {
+struct Sheared {
     using Some = Lanes<B>;
-    const Some ox = Some::all(q.origin[q.x]), oy = Some::all(q.origin[q.y]), oz = Some::all(q.origin[q.z]);
-    const Some sx = Some::all(q.shear_x), sy = Some::all(q.shear_y);
+    int x, y, z; // rows
+    Some ox, oy, oz, sx, sy;
+    explicit Sheared(const Query& q)
+        : x(q.x), y(q.y), z(q.z), ox(Some::all(q.origin[q.x])), oy(Some::all(q.origin[q.y])),
+          oz(Some::all(q.origin[q.z])), sx(Some::all(q.shear_x)), sy(Some::all(q.shear_y)) {}
+};
+
+template <int B>
+[[gnu::always_inline]] inline Met meet_block(const Query& q, const Sheared<B>& r,
+                                             const TriangleBlock<B>& block) {
+    using Some = Lanes<B>;
     const auto corner = [&](int v, int axis) { return Some::load(block.corner[v][axis]); };
-    const Some az = corner(0, q.z) - oz, bz = corner(1, q.z) - oz, cz = corner(2, q.z) - oz;
-    const Some ax = corner(0, q.x) - ox - sx * az, ay = corner(0, q.y) - oy - sy * az;
-    const Some bx = corner(1, q.x) - ox - sx * bz, by = corner(1, q.y) - oy - sy * bz;
-    const Some cx = corner(2, q.x) - ox - sx * cz, cy = corner(2, q.y) - oy - sy * cz;
+    const Some az = corner(0, r.z) - r.oz, bz = corner(1, r.z) - r.oz, cz = corner(2, r.z) - r.oz;
+    const Some ax = corner(0, r.x) - r.ox - r.sx * az, ay = corner(0, r.y) - r.oy - r.sy * az;
+    const Some bx = corner(1, r.x) - r.ox - r.sx * bz, by = corner(1, r.y) - r.oy - r.sy * bz;
+    const Some cx = corner(2, r.x) - r.ox - r.sx * cz, cy = corner(2, r.y) - r.oy - r.sy * cz;
     const Some u = cx * by - cy * bx, v = ax * cy - ay * cx, w = bx * ay - by * ax;
     const Some least = min(u, min(v, w)), most = max(u, max(v, w));
     const Some s = max(max(max(abs(ax), abs(ay)), max(abs(bx), abs(by))), max(abs(cx), abs(cy)));
-    const Some d = Some::all(4 * unit) * (s + Some::all(q.reach));
+    const Some d = Some::all(7 * unit) * (s + Some::all(q.reach));
     const Some bound = Some::all(6) * d * (s + d);
     const Some minus = Some::all(0) - bound;
     // Surely outside: an edge function surely below zero and another surely above.
     unsigned open = ~(less_equal(least, minus) & less_equal(bound, most)) & ((1u << B) - 1u);
-    if (!open) return false;
-    // Surely before or behind: t lies between those of the corners.
+    if (!open) return {0, 0, 0};
+    // Surely before or behind: t lies between those of the corners, which are off by 4u and the slack.
     const Some scale = Some::all(q.scale), ta = az * scale, tb = bz * scale, tc = cz * scale;
-    open &= less_equal(min(ta, min(tb, tc)), Some::all(q.t_best + q.slack));
-    open &= less_equal(Some::all(q.t_min), max(ta, max(tb, tc)) * Some::all(widen) + Some::all(q.slack));
-    if (!open) return false;
-    const unsigned sure = less_equal(bound, least) | less_equal(most, minus);
+    const Some slack = Some::all(q.slack), first = min(ta, min(tb, tc)), last = max(ta, max(tb, tc));
+    const Some latest = last * Some::all(widen) + slack;
+    open &= less_equal(first, Some::all(q.t_best) + slack);
+    open &= less_equal(Some::all(q.t_min), latest);
+    if (!open) return {0, 0, 0};
+    const Some earliest = first * Some::all(1 - 12 * unit) - slack;
+    return {open, less_equal(bound, least) | less_equal(most, minus),
+            less_equal(Some::all(q.t_after), earliest) & less_equal(latest, Some::all(q.t_before))};
+}
+
+// Takes the triangles that are met. Seldom needed, so kept out of the way's code. True if one was taken.
+template <int B>
+[[gnu::noinline]] bool take_met(Query& q, const TriangleBlock<B>& block, const Met& met) {
     bool taken = false;
-    for (; open; open &= open - 1) {
+    for (unsigned open = met.open; open; open &= open - 1) {
         const int lane = __builtin_ctz(open);
-        if ((sure >> lane & 1u) || decide(q, block, lane)) taken |= take(q, block, lane);
+        if (block.triangle[lane] == no_primitive) break; // and so are those behind
+        if ((met.sure >> lane & 1u) || decide(q, block, lane)) taken |= take(q, block, lane);
     }
     return taken;
 }
 
-struct Waiting {
-    std::uint32_t node;
-    float t;
-};
-
-// The nearest child first; the others wait on the stack, farthest deepest.
-template <int W>
-std::uint32_t enter_children(const WideNode<W>& node, unsigned met, const float* t, Waiting*& top) {
-    int first = __builtin_ctz(met);
-    met &= met - 1;
-    if (!met) return node.child[first];
-    int second = __builtin_ctz(met);
-    met &= met - 1;
-    if (!met) {
-        if (t[second] < t[first]) {
-            const int swap = first;
-            first = second;
-            second = swap;
-        }
-        *top++ = {node.child[second], t[second]};
-        return node.child[first];
+// The same where any hit will do: then t need not be known where it surely lies within the limits.
+template <int B>
+bool take_any(Query& q, const TriangleBlock<B>& block, const Met& met) {
+    if ((met.open & met.sure & met.between) && !q.calls.sees) {
+        q.hit.primitive = block.triangle[0]; // any; lanes left over repeat the first
+        return true;
     }
-    Waiting* const bottom = top;
-    const auto insert = [&](int child) {
-        const Waiting waiting{node.child[child], t[child]};
-        Waiting* at = top++;
-        for (; at > bottom && at[-1].t < waiting.t; --at) *at = at[-1];
-        *at = waiting;
+    return take_met(q, block, met);
+}
+
+// A child to come back to, and above it in the same number where the ray enters it: such numbers sort by
+// distance (t_min >= 0, give or take 2^-126).
+using Waiting = std::int64_t;
+
+inline Waiting waiting(std::uint32_t node, float t) {
+    std::uint32_t bits;
+    __builtin_memcpy(&bits, &t, sizeof bits);
+    return static_cast<Waiting>(std::uint64_t{bits} << 32 | node);
+}
+
+// The nearest child first; the others wait on the stack, farthest deepest. Which is nearer is as good as
+// random, so up to four are sorted without branches.
+template <int W>
+[[gnu::always_inline]] inline std::uint32_t enter_children(const WideNode<W>& node, unsigned met,
+                                                           const float* t, Waiting*& top) {
+    const auto next = [&] {
+        const int i = __builtin_ctz(met);
+        met &= met - 1;
+        return waiting(node.child[i], t[i]);
     };
-    insert(first);
-    insert(second);
-    for (; met; met &= met - 1) insert(__builtin_ctz(met));
-    return (--top)->node;
+    const auto sort = [](Waiting& x, Waiting& y) { // the nearer one to y
+        const Waiting far = x > y ? x : y, near = x > y ? y : x;
+        x = far, y = near;
+    };
+    Waiting a = next(), b = next();
+    sort(a, b);
+    if (!met) {
+        *top++ = a;
+        return static_cast<std::uint32_t>(b);
+    }
+    Waiting c = next();
+    if (!met) {
+        sort(a, c), sort(b, c);
+        top[0] = a, top[1] = b;
+        top += 2;
+        return static_cast<std::uint32_t>(c);
+    }
+    Waiting d = next();
+    sort(c, d), sort(a, c), sort(b, d), sort(b, c);
+    Waiting* const bottom = top;
+    top[0] = a, top[1] = b, top[2] = c, top[3] = d;
+    for (top += 4; met; ++top) {
+        const Waiting e = next();
+        Waiting* at = top;
+        for (; at > bottom && at[-1] < e; --at) *at = at[-1];
+        *at = e;
+    }
+    return static_cast<std::uint32_t>(*--top);
 }
 
 void fetch(const char* place) {
@@ -259,26 +316,27 @@ template <int W, int B, bool any>
 void traverse(Query& q) {
     using Wide = Lanes<W>;
     const char* const tree = q.bvh.tree;
-    const Wide nx = Wide::all(q.near_origin[0]), ny = Wide::all(q.near_origin[1]),
-               nz = Wide::all(q.near_origin[2]);
-    const Wide fx = Wide::all(q.far_origin[0]), fy = Wide::all(q.far_origin[1]),
-               fz = Wide::all(q.far_origin[2]);
+    const Wide nx = Wide::all(q.near[0]), ny = Wide::all(q.near[1]), nz = Wide::all(q.near[2]);
+    const Wide fx = Wide::all(q.far[0]), fy = Wide::all(q.far[1]), fz = Wide::all(q.far[2]);
     const Wide ix = Wide::all(q.inverse[0]), iy = Wide::all(q.inverse[1]), iz = Wide::all(q.inverse[2]);
     const Wide jx = Wide::all(q.far_inverse[0]), jy = Wide::all(q.far_inverse[1]),
                jz = Wide::all(q.far_inverse[2]);
     const Wide from = Wide::all(q.t_min);
+    const int near_x = q.near_row[0], near_y = q.near_row[1], near_z = q.near_row[2];
+    const int far_x = q.far_row[0], far_y = q.far_row[1], far_z = q.far_row[2];
+    const Sheared<B> sheared(q);
     Waiting stack[bvh_max_depth * (W - 1) + W];
     Waiting* top = stack;
     std::uint32_t at = q.bvh.root;
     for (;;) {
         if (!(at & leaf_bit)) {
             const auto& node = *reinterpret_cast<const WideNode<W>*>(tree + at * line_size);
-            const Wide x0 = (Wide::load(node.bound[q.near_row[0]]) - nx) * ix,
-                       y0 = (Wide::load(node.bound[q.near_row[1]]) - ny) * iy,
-                       z0 = (Wide::load(node.bound[q.near_row[2]]) - nz) * iz;
-            const Wide x1 = (Wide::load(node.bound[q.far_row[0]]) - fx) * jx,
-                       y1 = (Wide::load(node.bound[q.far_row[1]]) - fy) * jy,
-                       z1 = (Wide::load(node.bound[q.far_row[2]]) - fz) * jz;
+            const Wide x0 = multiply_subtract(Wide::load(node.bound[near_x]), ix, nx),
+                       y0 = multiply_subtract(Wide::load(node.bound[near_y]), iy, ny),
+                       z0 = multiply_subtract(Wide::load(node.bound[near_z]), iz, nz);
+            const Wide x1 = multiply_subtract(Wide::load(node.bound[far_x]), jx, fx),
+                       y1 = multiply_subtract(Wide::load(node.bound[far_y]), jy, fy),
+                       z1 = multiply_subtract(Wide::load(node.bound[far_z]), jz, fz);
             const Wide enter = max(max(x0, y0), max(z0, from));
             const Wide leave = min(min(x1, y1), min(z1, Wide::all(q.t_best)));
             unsigned met = less_equal(enter, leave);
@@ -288,8 +346,11 @@ void traverse(Query& q) {
                     fetch(tree + (node.child[__builtin_ctz(others)] & index_mask) * line_size);
                 if (any) { // in no order: whatever blocks the ray will do
                     at = node.child[__builtin_ctz(met)];
-                    for (met &= met - 1; met; met &= met - 1)
-                        *top++ = {node.child[__builtin_ctz(met)], q.t_min};
+                    for (met &= met - 1; met; met &= met - 1) *top++ = node.child[__builtin_ctz(met)];
+                    continue;
+                }
+                if (!(met & (met - 1))) {
+                    at = node.child[__builtin_ctz(met)];
                     continue;
                 }
                 alignas(64) float t[W];
@@ -302,16 +363,17 @@ void traverse(Query& q) {
                 if (any) return;
                 q.found_t();
             }
-        } else if (meet_block(
-                       q, *reinterpret_cast<const TriangleBlock<B>*>(tree + (at & index_mask) * line_size)) &&
-                   any) {
-            return;
+        } else {
+            const auto& block =
+                *reinterpret_cast<const TriangleBlock<B>*>(tree + (at & index_mask) * line_size);
+            const Met met = meet_block(q, sheared, block);
+            if (met.open && (any ? take_any(q, block, met) : take_met(q, block, met)) && any) return;
         }
         do {
             if (top == stack) return;
             --top;
-        } while (top->t > q.t_best);
-        at = top->node;
+        } while (!any && *top > waiting(0xffffffffu, q.t_best));
+        at = static_cast<std::uint32_t>(*top);
     }
 }
 

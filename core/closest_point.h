@@ -37,4 +37,8 @@ ClosestPoint closest_point_on_object(const World& world, int object, Vec3 point)
 // outside.
 ClosestPoint closest_point_on_shape(const Shape& shape, Vec3 point);
 
+// What closest_point_on_shape takes for shapes without a formula: found by hits along lines, to about 1e-8 of the distance,
+// at edges to 1e-3; at once where the point lies on the surface.
+ClosestPoint closest_point_by_rays(const Shape& shape, Vec3 point);
+
 } // namespace pnr

@@ -112,7 +112,8 @@ ClosestPoint closest_point_on_shape(const Shape& shape, Vec3 p) {
         const Revolution r(d->center, d->normal, p);
         return r.lift({std::clamp(r.query.x, d->hole, d->radius), 0}, {0, 1}, p);
     }
-    return {};
+    if (std::holds_alternative<Mesh>(shape) || std::holds_alternative<BicubicPatch>(shape)) return {};
+    return closest_point_by_rays(shape, p);
 }
 
 } // namespace pnr

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/emission.h"
 
+#include "core/area_light.h"
 #include "core/material.h"
 #include "core/sobol.h"
 
@@ -73,7 +74,9 @@ Aim parallel_aim(const Light& light, const Focus& sphere) {
 
 std::vector<Aim> make_aims(const Focus& focus, const std::vector<Focus>& targets, const Light& light,
                            bool unbounded) {
-    const auto aim = [&](const Focus& sphere) {
+    const double reach = light.has_extent() ? area_reach(*light.said.area) : 0; // photons start so far beside its position
+    const auto aim = [&](Focus sphere) {
+        sphere.radius += reach;
         return is_parallel(light) ? parallel_aim(light, sphere) : point_aim(light, sphere);
     };
     std::vector<Aim> aims;
@@ -101,7 +104,7 @@ bool said_target(const World& world) {
 // caustics are not all that is wanted, or something unbounded throws them.
 std::vector<Focus> find_targets(const World& world) {
     std::vector<Focus> targets;
-    if (world.illumination != Illumination::caustics) return targets;
+    if (!world.caustics_apart) return targets;
     const bool said = said_target(world);
     std::vector<char> throws(world.objects.size(), 0);
     for (const Surface& surface : world.surfaces) {
@@ -159,7 +162,7 @@ bool contains(const Aim& aim, Vec3 direction) {
     return 1 - glm::dot(aim.axis, direction) <= aim.one_minus_cos * (1 + 1e-9) + 1e-15;
 }
 
-EmittedPhoton emit_point(const Light& light, const LightShare& share, Vec2 u) {
+EmittedPhoton emit_point(const Light& light, const LightShare& share, Vec2 u, Vec2 on_area) {
     const Aim& aim = choose_aim(share.aims, u.x);
     EmittedPhoton photon;
     photon.ray.origin = light.said.position;
@@ -168,6 +171,8 @@ EmittedPhoton emit_point(const Light& light, const LightShare& share, Vec2 u) {
     for (const Aim& a : share.aims)
         if (&a == &aim || contains(a, photon.ray.direction)) density += a.share / a.measure;
     photon.flux = light.said.color * static_cast<float>(pi / (density * static_cast<double>(share.count)));
+    if (light.has_extent())
+        photon.ray.origin = area_point_at(view_area(light, photon.ray.origin + photon.ray.direction, 0), on_area);
     return photon;
 }
 
@@ -193,7 +198,7 @@ EmissionPlan plan_emission(const World& world, const PhotonSettings& settings) {
     const bool unbounded = has_unbounded(world);
     plan.focus = make_focus(world, unbounded);
     const std::vector<Focus> targets = find_targets(world);
-    plan.targeted = world.illumination == Illumination::caustics && said_target(world);
+    plan.targeted = world.caustics_apart && said_target(world);
     const std::int64_t wanted = photon_count(plan.focus, settings);
     double total = 0;
     std::vector<double> weights;
@@ -227,7 +232,8 @@ EmittedPhoton emit_photon(const World& world, const LightShare& share, std::uint
     const Light& light = world.lights[static_cast<std::size_t>(share.light)];
     const Vec2 u = sobol2(index, 0, seed);
     if (!light.is_emitter())
-        return is_parallel(light) ? emit_parallel(light, share, u) : emit_point(light, share, u);
+        return is_parallel(light) ? emit_parallel(light, share, u)
+                                  : emit_point(light, share, u, sobol2(index, 2, seed));
     const EmissionSample start = sample_emission(light, u, sobol2(index, 2, seed));
     Hit from; // the emitter's own surface, so that the ray leaves it as from any hit
     from.position = start.point;

@@ -31,6 +31,7 @@ struct Chain {
 Chain follow_chain(const World& world, const Ray& camera_ray, const RenderSettings& settings) {
     Chain chain;
     chain.last = camera_ray;
+    if (sees_nothing(camera_ray)) return chain;
     RayKind kind = RayKind::camera;
     for (int level = 0;; ++level) {
         chain.hit = closest_hit(world, chain.last, kind);
@@ -75,6 +76,19 @@ double away_from_zero(double cosine) {
     return std::abs(cosine) >= least ? cosine : (cosine < 0 ? -least : least);
 }
 
+Vec3 meet_plane(const Ray& ray, Vec3 point, Vec3 normal) {
+    const double cosine = away_from_zero(glm::dot(normal, ray.direction));
+    return ray.origin + ray.direction * (glm::dot(normal, point - ray.origin) / cosine);
+}
+
+// Of a camera without a picture plane: by rays a tenth of a pixel to both sides.
+Vec3 curved_derivative(const PictureView& view, Vec2 pixel, Vec2 axis, Vec3 point, Vec3 normal) {
+    constexpr double step = 0.1;
+    const Ray a = pixel_ray(view, pixel - step * axis), b = pixel_ray(view, pixel + step * axis);
+    if (sees_nothing(a) || sees_nothing(b)) return Vec3(0);
+    return (meet_plane(b, point, normal) - meet_plane(a, point, normal)) / (2 * step);
+}
+
 // How the point where the camera ray through `pixel` meets the plane (point, normal) moves when the pixel
 // does.
 void direct_footprint(const PictureView& view, Vec2 pixel, Vec3 point, Vec3 normal, Seen& seen) {
@@ -83,6 +97,11 @@ void direct_footprint(const PictureView& view, Vec2 pixel, Vec3 point, Vec3 norm
     const Vec3 step_y = -camera.up / static_cast<double>(view.height);
     const double x = pixel.x / view.width - 0.5, y = 0.5 - pixel.y / view.height;
     const bool perspective = camera.projection == Projection::perspective;
+    if (!perspective && camera.projection != Projection::orthographic) {
+        seen.dpdx = Vec3f(curved_derivative(view, pixel, {1, 0}, point, normal));
+        seen.dpdy = Vec3f(curved_derivative(view, pixel, {0, 1}, point, normal));
+        return;
+    }
     const Vec3 along = perspective ? camera.direction + x * camera.right + y * camera.up : camera.direction;
     // point = location + scale * along; an orthographic step moves the ray's origin instead.
     const double scale = perspective ? glm::length(point - camera.location) / glm::length(along) : 1.0;
@@ -90,11 +109,6 @@ void direct_footprint(const PictureView& view, Vec2 pixel, Vec3 point, Vec3 norm
     const double cosine = away_from_zero(glm::dot(normal, unit));
     seen.dpdx = Vec3f(scale * (step_x - unit * (glm::dot(normal, step_x) / cosine)));
     seen.dpdy = Vec3f(scale * (step_y - unit * (glm::dot(normal, step_y) / cosine)));
-}
-
-Vec3 meet_plane(const Ray& ray, Vec3 point, Vec3 normal) {
-    const double cosine = away_from_zero(glm::dot(normal, ray.direction));
-    return ray.origin + ray.direction * (glm::dot(normal, point - ray.origin) / cosine);
 }
 
 // Seen through a chain: by rays a tenth of a pixel away to both sides, one side if the other parts from the
@@ -107,7 +121,9 @@ Vec3 chain_derivative(const World& world, const PictureView& view, Vec2 pixel, c
     double span = 0;
     for (int side = 0; side < 2; ++side) {
         const Vec2 moved = pixel + axis * (side == 0 ? -step : step);
-        const std::optional<Ray> last = follow_steps(world, pixel_ray(view, moved), chain.steps);
+        const Ray start = pixel_ray(view, moved);
+        if (sees_nothing(start)) continue;
+        const std::optional<Ray> last = follow_steps(world, start, chain.steps);
         if (!last) continue;
         there[side] = meet_plane(*last, point, normal);
         span += step;

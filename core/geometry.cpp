@@ -7,7 +7,7 @@ namespace pnr {
 
 namespace {
 
-int intersect_form(const GeometryItem& item, const Ray& ray, HitList& hits) {
+int intersect_form(const GeometryItem& item, const Ray& ray, HitList& hits, int enough) {
     if (const auto* h = std::get_if<Hemisphere>(&item.form)) {
         intersect_shape(Sphere{h->center, h->radius}, ray, hits);
         const auto other_half = [&](const ShapeHit& hit) { return !(glm::dot(hit.normal, h->axis) >= 0); };
@@ -29,7 +29,7 @@ int intersect_form(const GeometryItem& item, const Ray& ray, HitList& hits) {
         hits.push_back({t, n, {a, b}, 0});
         return 1;
     }
-    return intersect_shape(std::get<Shape>(item.form), ray, hits);
+    return intersect_shape(std::get<Shape>(item.form), ray, hits, enough);
 }
 
 bool better(double t, std::uint32_t primitive, const KernelHit& hit) {
@@ -54,7 +54,8 @@ bool meets_shape(Trace& trace, std::uint32_t index, std::uint32_t primitive, Ker
                   transform_vector(item.to_world.inverse, trace.ray.direction), trace.ray.t_min,
                   std::min(trace.ray.t_max, end + 0x1p-40 * std::abs(end))};
     HitList hits;
-    intersect_form(item, own, hits);
+    const bool gated = trace.g.csg.leaf_of_item[index] != no_csg;
+    intersect_form(item, own, hits, gated ? all_hits : 1);
     for (const ShapeHit& met : hits) {
         const double t = trace.prepared.to_kernel(met.t);
         if (!better(t, primitive, hit)) return false;

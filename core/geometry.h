@@ -34,6 +34,7 @@ struct GeometryItem {
     Transform to_world;
     bool inverse = false;         // normals point the other way
     std::uint8_t hidden_from = 0; // 1 << RayKind for each kind of ray that passes through
+    std::uint32_t first_part = no_texture; // surface of texture 0 of the shape's own parts, if they are shown
     // Where an endless surface is looked for, in world space; nothing is looked at beyond.
     Bounds limits{Vec3(-infinity), Vec3(infinity)};
 };

@@ -29,9 +29,22 @@ constexpr Bounds everywhere{Vec3(-infinity), Vec3(infinity)};
 bool is_finite(const Bounds& b) { return std::isfinite(largest(b.low)) && std::isfinite(largest(b.high)); }
 Bounds common(const Bounds& a, const Bounds& b) { return {glm::max(a.low, b.low), glm::min(a.high, b.high)}; }
 
+// A box without an end on some sides: those may stay on sides of their own.
+Bounds place_endless_box(const Bounds& own, const Transform& to_world) {
+    Bounds world{Vec3(to_world.matrix[3]), Vec3(to_world.matrix[3])};
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column) {
+            const double m = to_world.matrix[column][row];
+            if (m == 0) continue;
+            world.low[row] += m * (m > 0 ? own.low : own.high)[column];
+            world.high[row] += m * (m > 0 ? own.high : own.low)[column];
+        }
+    return world;
+}
+
 Bounds place_box(const Bounds& own, const Transform& to_world) {
     if (is_empty(own)) return {};
-    if (!is_finite(own)) return everywhere;
+    if (!is_finite(own)) return place_endless_box(own, to_world);
     Bounds world;
     for (int corner = 0; corner < 8; ++corner)
         world = merge(world, transform_point(to_world.matrix, {corner & 1 ? own.high.x : own.low.x,
@@ -85,10 +98,10 @@ CsgLeaf leaf_of(const GeometryItem& item, const Bounds& bounds) {
     CsgLeaf leaf{bounds, everywhere, everywhere, item.inverse};
     const Shape* shape = std::get_if<Shape>(&item.form);
     const Plane* plane = shape ? std::get_if<Plane>(shape) : nullptr;
-    const bool half_space = plane || (shape && std::holds_alternative<Disc>(*shape));
+    const bool endless = shape && has_endless_inside(*shape);
     if (plane)
         plane_leaf(item, *plane, leaf);
-    else if (!half_space)
+    else if (!endless)
         leaf.inside = bounds;
     if (!is_finite(leaf.surface)) leaf.surface = common(leaf.surface, item.limits);
     if (item.inverse) std::swap(leaf.inside, leaf.outside);

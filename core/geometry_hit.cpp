@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/geometry_impl.h"
+#include "core/shape_field.h"
 
 #include <cmath>
 
@@ -28,6 +29,23 @@ Vec3 barycentric(const Corners& t, Vec3 p) {
     return {1 - b - c, b, c};
 }
 
+// The textures of a triangle's corners, by their shares.
+void mix_corners(const GeometryItem& item, const std::array<std::uint32_t, 3>& numbers, Vec3 weights,
+                 Hit& hit) {
+    if (numbers[0] == no_texture || item.first_part == no_texture) return;
+    const auto surface = [&](std::size_t k) { return item.first_part + numbers[k]; };
+    hit.surface = surface(0);
+    if (numbers[0] == numbers[1] && numbers[0] == numbers[2]) return;
+    std::array<std::size_t, 3> order{0, 1, 2};
+    const double w[3] = {weights.x, weights.y, weights.z};
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return w[a] > w[b]; });
+    for (std::size_t k = 0; k < 3; ++k) {
+        hit.mixed[k] = surface(order[k]);
+        hit.shares[static_cast<int>(k)] = static_cast<float>(w[order[k]]);
+    }
+    hit.surface = hit.mixed[0];
+}
+
 // `corners` are in the space that `to_world` takes to the world; p is about the hit, in that space.
 void finish_mesh_hit(const GeometryItem& item, std::uint32_t number, const Corners& corners,
                      const Transform& to_world, Vec3 p, Hit& hit) {
@@ -50,6 +68,7 @@ void finish_mesh_hit(const GeometryItem& item, std::uint32_t number, const Corne
             hit.shading_normal = (glm::dot(shading, hit.normal) < 0 ? -1.0 : 1.0) * shading / length;
     }
     if (!mesh.uvs.empty()) hit.uv = Vec2(blend(mesh.uv_triangles[number], mesh.uvs, weights));
+    if (!mesh.texture_triangles.empty()) mix_corners(item, mesh.texture_triangles[number], weights, hit);
     // Rounding of the corners' sum and of the plane that rays are cut with, whose normal is the worse the
     // thinner the triangle is; then of the way to the world.
     const double size = std::max({largest(corners.a), largest(corners.b), largest(corners.c)});
@@ -65,13 +84,35 @@ void finish_mesh_hit(const GeometryItem& item, std::uint32_t number, const Corne
     hit.error = 2 * stretch * own_error + 0x1p-48 * (stretch * size + shift);
 }
 
+// The largest three shares of a blob's components; those without a texture show the object's.
+void mix_parts(Hit& hit, const GeometryItem& item, const BlobShares& all) {
+    double sum = 0;
+    for (const auto& [texture, share] : all) sum += share;
+    if (!(sum > 0)) return;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        hit.mixed[k] = all[k].texture == no_texture ? hit.surface : item.first_part + all[k].texture;
+        hit.shares[static_cast<int>(k)] = static_cast<float>(all[k].share / sum);
+    }
+    hit.surface = hit.mixed[0];
+    if (all[1].share == 0) hit.shares = Vec3f(0);
+}
+
 void finish_shape_hit(const Geometry& g, const Ray& ray, const ShapeHit& shape_hit, Hit& hit) {
-    const GeometryItem& item = g.items[hit.surface];
+    const GeometryItem& item = g.items[hit.leaf];
     hit.position = ray.origin + shape_hit.t * ray.direction;
     const Vec3 n = transform_normal(item.to_world, shape_hit.normal);
-    hit.normal = hit.shading_normal = (item.inverse ? -1.0 : 1.0) * glm::normalize(n / largest(n));
+    const double side = item.inverse ? -1 : 1;
+    hit.normal = hit.shading_normal = side * glm::normalize(n / largest(n));
+    if (shape_hit.shading != Vec3(0)) {
+        const Vec3 smooth = transform_normal(item.to_world, shape_hit.shading);
+        hit.shading_normal = side * glm::normalize(smooth / largest(smooth));
+    }
     hit.uv = shape_hit.uv;
-    hit.error = shape_hit_error(g, hit.surface, ray, shape_hit);
+    hit.error = shape_hit_error(g, hit.leaf, ray, shape_hit);
+    const Shape* shape = std::get_if<Shape>(&item.form);
+    const Blob* blob = shape ? std::get_if<Blob>(shape) : nullptr;
+    if (blob && item.first_part != no_texture)
+        mix_parts(hit, item, blob_shares(*blob->data, transform_point(item.to_world.inverse, hit.position)));
 }
 
 static const Transform in_place;
@@ -83,7 +124,7 @@ Hit finish_hit(const Geometry& g, const Ray& ray, const Prepared& prepared, cons
     hit.primitive = found.primitive;
     if (found.triangle == no_primitive) {
         hit.t = trace.shape_hit.t;
-        hit.surface = found.item;
+        hit.surface = hit.leaf = found.item;
         finish_shape_hit(g, ray, trace.shape_hit, hit);
         return hit;
     }
@@ -94,11 +135,11 @@ Hit finish_hit(const Geometry& g, const Ray& ray, const Prepared& prepared, cons
         g.bvh.triangles->corners(found.triangle, v);
         const Corners corners{Vec3(v[0], v[1], v[2]) / g.scale, Vec3(v[3], v[4], v[5]) / g.scale,
                               Vec3(v[6], v[7], v[8]) / g.scale};
-        hit.surface = g.placed_items[placed];
-        finish_mesh_hit(g.items[hit.surface], found.triangle - g.placed_first[placed], corners, in_place, p,
+        hit.surface = hit.leaf = g.placed_items[placed];
+        finish_mesh_hit(g.items[hit.leaf], found.triangle - g.placed_first[placed], corners, in_place, p,
                         hit);
     } else {
-        hit.surface = found.item;
+        hit.surface = hit.leaf = found.item;
         const GeometryItem& item = g.items[found.item];
         const MeshData& mesh = *mesh_of(item)->data;
         const auto& t = mesh.triangles[found.triangle];
@@ -131,8 +172,12 @@ double shape_hit_error(const Geometry& g, std::uint32_t index, const Ray& ray, c
 Hit finish(const Geometry& g, const Ray& ray, const Prepared& prepared, const Trace& trace,
            const KernelHit& found) {
     Hit hit = finish_hit(g, ray, prepared, trace, found);
-    if (const std::uint32_t leaf = g.csg.leaf_of_item[hit.surface]; leaf != no_csg)
-        hit.surface = csg_textured_item(g.csg, leaf, hit.position, solids_of(g));
+    if (const std::uint32_t leaf = g.csg.leaf_of_item[hit.leaf]; leaf != no_csg)
+        if (const std::uint32_t shown = csg_textured_item(g.csg, leaf, hit.position, solids_of(g));
+            shown != hit.leaf) {
+            hit.surface = shown;
+            hit.shares = Vec3f(0);
+        }
     return hit;
 }
 

@@ -3,10 +3,9 @@
 
 #include "core/atomic_file.h"
 #include "core/image_module.h"
+#include "core/module.h"
 
 #include <cmath>
-#include <cstdlib>
-#include <dlfcn.h>
 
 namespace pnr {
 
@@ -14,36 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Where the module may lie, first choice first: the environment's word alone if it is there, else beside the
-// program in a build folder or an installation.
-std::vector<fs::path> module_places() {
-    if (const char* named = std::getenv("PNR_IMAGE_MODULE")) return {named};
-    std::error_code error;
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    if (error) return {"libpnr_image.so"};
-    const fs::path root = program.parent_path().parent_path();
-    return {root / "lib" / "libpnr_image.so", root / "lib" / "pnr" / "libpnr_image.so"};
-}
-
-const ImageModule& open_module() {
-    std::string reasons;
-    for (const fs::path& place : module_places()) {
-        void* library = ::dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);
-        if (library == nullptr) {
-            reasons += std::string("\n  ") + ::dlerror();
-            continue;
-        }
-        const auto get = reinterpret_cast<const ImageModule* (*)()>(::dlsym(library, image_module_symbol));
-        if (get != nullptr && get()->version == image_module_version) return *get();
-        reasons += "\n  " + place.string() + ": of another version of pnr";
-    }
-    throw FileError("cannot open the image module (PNR_IMAGE_MODULE can name it):" + reasons);
-}
-
 // Opened at the first picture and kept: the image library must not be unloaded under its own threads. After a
 // failure the next picture tries again.
 const ImageModule& image_module() {
-    static const ImageModule& module = open_module();
+    static const auto& module = *static_cast<const ImageModule*>(open_module(
+        {"image", "libpnr_image.so", "PNR_IMAGE_MODULE", image_module_symbol, image_module_version}));
     return module;
 }
 
@@ -133,6 +107,35 @@ Image<glm::vec4> read_image(const fs::path& file) {
         image.pixels[i] = {linear(pixel[r]), linear(pixel[g]), linear(pixel[b]), a < 0 ? 1.0f : pixel[a]};
     }
     return image;
+}
+
+Image<float> read_heights(const fs::path& file, bool pot) {
+    Image<std::uint8_t> numbers;
+    if (image_module().decode_numbers(file.string(), numbers).empty()) {
+        const int width = pot ? numbers.width / 2 : numbers.width;
+        Image<float> heights(width, numbers.height);
+        for (int y = 0; y < heights.height; ++y)
+            for (int x = 0; x < width; ++x) {
+                const int low = pot ? numbers.at(x + width, y) : 0;
+                heights.at(x, y) = static_cast<float>(numbers.at(x, y) * 256 + low) / 65536;
+            }
+        return heights;
+    }
+    const DecodedPicture decoded = decode(file);
+    const ImagePart& part = decoded.image.parts.front();
+    const PixelRect& window = decoded.image.data_window;
+    Image<float> heights(window.x1 - window.x0, window.y1 - window.y0);
+    const std::size_t count = part.channel_names.size();
+    for (std::size_t i = 0; i < heights.pixels.size(); ++i) {
+        const float* v = part.data.data() + i * count;
+        if (count < 3)
+            heights.pixels[i] = v[0] * 65535 / 65536;
+        else if (decoded.is_integer && decoded.bits == 8)
+            heights.pixels[i] = (std::round(v[0] * 255) * 256 + std::round(v[1] * 255)) / 65536;
+        else
+            heights.pixels[i] = (0.297f * v[0] + 0.589f * v[1] + 0.114f * v[2]) * 65535 / 65536;
+    }
+    return heights;
 }
 
 ImageFile read_exr(const fs::path& file) { return decode(file).image; }

@@ -42,6 +42,11 @@ void write_png(const std::filesystem::path& file, const Image<Color>& linear, co
 // Reads any picture as linear Rec.709 with alpha: 8-bit and 16-bit integer files are taken as sRGB, float
 // ones as linear. Throws FileError.
 Image<glm::vec4> read_image(const std::filesystem::path& file);
+// A picture as heights in [0, 1), as POV-Ray's height fields take it: 65536 times a height is the value of a grey 16-bit
+// pixel or 257 times that of an 8-bit one, 256 times the number of a palette's colour, 256 red + green of 8-bit colours,
+// the grey of 16-bit ones. `pot`: palette numbers in the left half are high bytes, in the right half low ones [Fractint].
+// Throws FileError.
+Image<float> read_heights(const std::filesystem::path& file, bool pot);
 // The bytes of such files, for writing to standard output.
 std::vector<unsigned char> encode_exr(const ImageFile& image);
 std::vector<unsigned char> encode_png(const Image<Color>& linear, const Image<float>& alpha,

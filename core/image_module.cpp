@@ -3,6 +3,8 @@
 // exception leaves it.
 #include "core/image_module.h"
 
+#include "core/palette_picture.h"
+
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -138,6 +140,7 @@ std::string decode(const std::string& path, DecodedPicture& picture) {
     if (!input) return OIIO::geterror();
     const OIIO::ImageSpec first = input->spec();
     picture.is_integer = !first.format.is_floating_point();
+    picture.bits = static_cast<int>(8 * first.format.size());
     if (first.image_pixels() > largest_picture) return "the picture has more than 2^29 pixels";
     ImageFile& image = picture.image;
     image.width = first.full_width;
@@ -164,6 +167,13 @@ std::string decode(const std::string& path, DecodedPicture& picture) {
     return "";
 }
 
+std::string decode_numbers(const std::string& path, Image<std::uint8_t>& numbers) {
+    auto read = read_palette_numbers(path);
+    if (!read) return "the picture has no palette";
+    numbers = std::move(*read);
+    return "";
+}
+
 template <auto work, class... Arguments>
 std::string guarded(Arguments... arguments) {
     try {
@@ -178,6 +188,7 @@ constexpr ImageModule module_table{
     guarded<encode_exr, const ImageFile&, std::vector<unsigned char>&>,
     guarded<encode_png, const BytePicture&, std::vector<unsigned char>&>,
     guarded<decode, const std::string&, DecodedPicture&>,
+    guarded<decode_numbers, const std::string&, Image<std::uint8_t>&>,
 };
 
 } // namespace

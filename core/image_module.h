@@ -22,6 +22,7 @@ struct BytePicture {
 struct DecodedPicture {
     ImageFile image;
     bool is_integer = false;
+    int bits = 8; // of an integer channel
 };
 
 // Each returns the reason why it failed, or "".
@@ -30,8 +31,9 @@ struct ImageModule {
     std::string (*encode_exr)(const ImageFile& image, std::vector<unsigned char>& file) = nullptr;
     std::string (*encode_png)(const BytePicture& picture, std::vector<unsigned char>& file) = nullptr;
     std::string (*decode)(const std::string& path, DecodedPicture& picture) = nullptr;
+    std::string (*decode_numbers)(const std::string& path, Image<std::uint8_t>& numbers) = nullptr; // of a palette
 };
-inline constexpr int image_module_version = 1;
+inline constexpr int image_module_version = 2;
 inline constexpr const char* image_module_symbol = "pnr_image_module"; // extern "C" const ImageModule*()
 
 } // namespace pnr

@@ -2,6 +2,7 @@
 #include "core/irradiance_field.h"
 
 #include "core/gbuffer.h"
+#include "core/lit_places.h"
 #include "core/radiance.h"
 
 #include <atomic>
@@ -32,8 +33,7 @@ constexpr int most_levels = 4;
 constexpr float sure_weight = 0.05f;
 // Weight of a record where it is not to be trusted, if no other is.
 constexpr float last_resort = 1e-5f;
-// One in so many photons gets its irradiance computed beforehand, from so many neighbours.
-constexpr std::size_t lit_stride = 4;
+// Photons that tell the light where gather rays end.
 constexpr int lit_neighbours = 64;
 
 // Irradiance and its derivatives when the point moves or the normal turns, a vector for each channel.
@@ -56,35 +56,14 @@ struct Level {
     std::vector<Record> records; // of the sites, filled when first asked for
 };
 
-// Irradiance from all photons at one of them.
-struct LitPoint {
-    Vec3f normal{0};
-    Color irradiance{0};
-};
-
-// The surface under a photon, met again by its ray: a photon's record knows neither surface nor normal.
-// Nothing if something else is met first (a sheet thinner than the step back).
-std::optional<Hit> hit_of_photon(const World& world, const Photon& photon) {
-    const Vec3 direction = glm::normalize(Vec3(photon.direction));
-    const double back = 0x1p-12 * world.radius, slack = 0x1p-20 * world.radius;
-    const Ray ray{Vec3(photon.position) - direction * back, direction, 0, 2 * back};
-    std::optional<Hit> hit = closest_hit(world, ray, RayKind::photon);
-    if (!hit || glm::length(hit->position - Vec3(photon.position)) > slack) return std::nullopt;
-    return hit;
-}
-
-Vec3 lit_side(const Hit& hit, const Photon& photon) {
-    return glm::dot(hit.normal, Vec3(photon.direction)) < 0 ? hit.normal : -hit.normal;
-}
-
 } // namespace
 
 struct IrradianceField {
     mutable std::vector<Level> levels;
-    std::vector<LitPoint> lit;
-    KdTree lit_tree;
+    LitPlaces lit;
     mutable std::atomic<std::int64_t> records{0};
     std::uint64_t seed = 0;
+    double shrink = 1; // in area, of the widths below: see make_irradiance_field
 };
 
 namespace {
@@ -149,51 +128,8 @@ Level make_level(const World& world, const PhotonMap& map, float spacing) {
     return level;
 }
 
-// ---- light that gather rays meet
+// ---- light that gather rays bring
 // ----------------------------------------------------------------------------------
-
-void light_points(const World& world, const PhotonMap& map, IrradianceField& field,
-                  const Progress& progress) {
-    const std::size_t count = (map.photons.size() + lit_stride - 1) / lit_stride;
-    field.lit.resize(count);
-    std::vector<Vec3f> positions(count);
-    const GatherSettings settings{lit_neighbours, map.radius, GatherKernel::epanechnikov, true, true, true, 0,
-                                  false};
-    std::atomic<std::int64_t> done{0};
-    std::atomic<bool> stop{false};
-    parallel_for(
-        static_cast<std::int64_t>(count), 1024, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-            std::vector<Neighbour> scratch;
-            for (std::int64_t n = begin; n < end && !stop; ++n) {
-                const auto i = static_cast<std::size_t>(n);
-                const Photon& photon = map.photons[i * lit_stride];
-                positions[i] = photon.position;
-                const std::optional<Hit> hit = hit_of_photon(world, photon);
-                if (!hit) continue; // its normal stays 0: no ray takes it
-                Bsdf meter;
-                meter.normal = meter.geometric = lit_side(*hit, photon);
-                meter.diffuse = Color{static_cast<float>(pi)};
-                field.lit[i] = {Vec3f(meter.normal),
-                                gather(world, map, settings, hit->position, meter, meter.normal, scratch)};
-            }
-            if (progress && !progress(done += end - begin, static_cast<std::int64_t>(count))) stop = true;
-        });
-    if (stop) throw Interrupted{};
-    field.lit_tree = build_kdtree(positions);
-}
-
-// Irradiance at a point that a gather ray met, from the nearest lit point of its side and about its plane.
-Color lit_irradiance(const IrradianceField& field, Vec3 position, Vec3 normal,
-                     std::vector<Neighbour>& scratch) {
-    const Vec3f n(normal);
-    for (const int neighbours : {1, 8}) { // most often the nearest will do
-        find_nearest(field.lit_tree, Vec3f(position), neighbours, std::numeric_limits<float>::infinity(),
-                     scratch);
-        for (const Neighbour& near : scratch)
-            if (glm::dot(field.lit[near.index].normal, n) > 0.7f) return field.lit[near.index].irradiance;
-    }
-    return Color{0};
-}
 
 // What the points share that gather rays are shot from.
 struct GatherScene {
@@ -227,7 +163,7 @@ Color gathered_radiance(const GatherScene& scene, Ray ray, Rng& rng, double& dis
     distance = infinity;
     for (int bounce = 0, scattered = 0; bounce < most_bounces; ++bounce) {
         const std::optional<Hit> hit = closest_hit(world, ray, RayKind::specular);
-        if (!hit) return found + throughput * world.background;
+        if (!hit) return found + throughput * sky_radiance(world, ray.direction);
         if (bounce == 0) distance = hit->t;
         if (world.surfaces[hit->surface].light >= 0) return found;
         const Vec3 outgoing = -ray.direction;
@@ -246,7 +182,7 @@ Color gathered_radiance(const GatherScene& scene, Ray ray, Rng& rng, double& dis
             matt.diffuse = bsdf.diffuse + bsdf.glossy;
             if (hit->t >= near || scattered == most_near)
                 return found + throughput * matt.diffuse / static_cast<float>(pi) *
-                                   lit_irradiance(scene.field, hit->position, matt.normal, scratch);
+                                   lit_irradiance(scene.field.lit, hit->position, matt.normal, scratch);
             found += throughput * near_light(scene, *hit, matt, outgoing, rng, scratch);
             throughput *= matt.diffuse;
             ray = leave(*hit, square_to_cosine(rng.uniform2(), make_frame(matt.normal)));
@@ -340,14 +276,14 @@ void find_gradients(const GatherRays& rays, const Frame& frame, double least, Re
 // How far a record may be trusted: a share of the harmonic mean distance, no farther than to the nearest
 // thing seen (a round thing's foot is narrow, and the mean distance knows nothing of it) and than its own
 // gradient allows.
-float trusted_reach(const GatherRays& rays, const Record& record, double scene_radius) {
+float trusted_reach(const GatherRays& rays, const Record& record, double share, double scene_radius) {
     double inverse = 0, least = infinity;
     for (const auto& ring : rays.distance)
         for (const double d : ring) {
             inverse += 1 / std::max(d, 1e-9 * scene_radius);
             least = std::min(least, d);
         }
-    double reach = inverse > 0 ? trusted_share * rings * sectors / inverse : scene_radius;
+    double reach = inverse > 0 ? share * rings * sectors / inverse : scene_radius;
     reach = std::min(reach, least);
     const Vec3f slope = record.moved[0] * 0.2126f + record.moved[1] * 0.7152f + record.moved[2] * 0.0722f;
     const double steep = glm::length(slope);
@@ -365,7 +301,7 @@ Record make_record(const IrradianceField& field, const World& world, const Photo
     const GatherRays rays = shoot({field, world, map}, *hit, frame, rng);
     record.irradiance = irradiance_of(rays);
     find_gradients(rays, frame, field.levels.back().spacing, record);
-    record.reach = trusted_reach(rays, record, world.radius);
+    record.reach = trusted_reach(rays, record, trusted_share * std::sqrt(field.shrink), world.radius);
     return record;
 }
 
@@ -418,10 +354,13 @@ struct Blend {
 } // namespace
 
 std::shared_ptr<const IrradianceField> make_irradiance_field(const World& world, const PhotonMap& map,
-                                                             const Progress& progress) {
+                                                             const Progress& progress, double shrink) {
     auto field = std::make_shared<IrradianceField>();
+    field->shrink = shrink;
+    field->seed = static_cast<std::uint64_t>(map.pass);
     if (map.photons.empty() || map.tree.count == 0) return field;
-    light_points(world, map, *field, progress);
+    const int neighbours = std::max(8, static_cast<int>(std::lround(lit_neighbours * shrink)));
+    field->lit = make_lit_places(world, map, neighbours, progress);
     // From a tenth of the scene's radius down to the mean distance of photons, by halves.
     const double photon_distance = std::sqrt(pi / 100) * map.radius;
     std::vector<float> spacings;

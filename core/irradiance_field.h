@@ -20,9 +20,11 @@ namespace pnr {
 struct IrradianceField; // irradiance_field.cpp
 
 // Lists the sites and computes the irradiances that gather rays end at. `map` must have its tree. A field
-// belongs to the world and the map it was made from.
+// belongs to the world and the map it was made from. `shrink` in (0, 1] is the share of a first pass's widths that
+// this one blurs over, in area: progressive passes make it smaller, so that their mean has ever less bias.
 std::shared_ptr<const IrradianceField> make_irradiance_field(const World& world, const PhotonMap& map,
-                                                             const Progress& progress = {});
+                                                             const Progress& progress = {},
+                                                             double shrink = 1);
 
 // Irradiance by indirect light (neither straight from a light nor through specular surfaces alone) at a
 // point; `normal` is unit, on the side that is lit. `trust` tells how much the records know about the point:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/light.h"
 
+#include "core/area_light.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -155,10 +157,13 @@ double light_attenuation(const Light& light, Vec3 position) {
 
 namespace {
 
-LightSample sample_delta(const Light& light, Vec3 position) {
+// A POV-Ray light, seen at its position or, if it has an area, at a place of that.
+LightSample sample_delta(const Light& light, Vec3 position, Vec2 u) {
     const LightSource& l = light.said;
     LightSample sample;
-    const Vec3 d = l.position - position;
+    Vec3 shines_from = l.position;
+    if (light.has_extent()) shines_from = area_point_at(view_area(light, position, 0), u);
+    const Vec3 d = shines_from - position;
     if (is_parallel(light)) {
         const Vec3 axis = light_axis(light);
         const double depth = -glm::dot(d, axis);
@@ -172,7 +177,7 @@ LightSample sample_delta(const Light& light, Vec3 position) {
         sample.distance = glm::length(d);
         if (!(sample.distance > 0)) return sample;
         sample.direction = d / sample.distance;
-        sample.point = l.position;
+        sample.point = shines_from;
     }
     const Vec3 p = glm::abs(sample.point);
     sample.error = std::max({p.x, p.y, p.z}) * 0x1p-50;
@@ -371,7 +376,7 @@ LightSample sample_rectangle(const Light& light, Vec3 position, Vec2 u) {
 } // namespace
 
 LightSample sample_light(const Light& light, Vec3 position, Vec2 u) {
-    if (!light.is_emitter()) return sample_delta(light, position);
+    if (!light.is_emitter()) return sample_delta(light, position, u);
     switch (light.said.emitter->shape) {
     case EmitterShape::sphere:
     case EmitterShape::hemisphere:

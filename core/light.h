@@ -7,14 +7,22 @@
 #include "core/scene.h"
 #include "core/types.h"
 
+#include <memory>
+
 namespace pnr {
+
+struct Probe; // probe.h
 
 struct Light {
     LightSource said;  // position, point_at in world space; emitter's radiance resolved below
     Color radiance{0}; // of an emitter, W/(m^2 sr); black for POV-Ray's lights
     double area = 0;   // of an emitter; 0 for POV-Ray's lights
     Color power{0}; // emitted flux in W (emitter: pi * area * radiance); for POV-Ray's lights a weight only
+    std::shared_ptr<const Probe> window; // projected_through, in scene space ...
+    Vec3 offset{0};                      // ... which is world space plus this
     bool is_emitter() const { return area > 0; }
+    // Whether its light comes from many points: sample_light's u chooses one.
+    bool has_extent() const { return is_emitter() || (said.area && !said.parallel && !said.cylinder); }
 };
 
 // Resolves radiance or power of an emitter (with neither: radiance 1); the light must already be in world
@@ -26,7 +34,7 @@ Light make_light(const LightSource& said);
 // half sphere. (built in world.cpp; here only sampling)
 
 // A point chosen to light `position` from: area samples for emitters (by solid angle where that is cheaper in
-// noise), the one point else.
+// noise), a point of the area of POV-Ray's area lights, the one point else.
 struct LightSample {
     Vec3 point{0};     // on the light; for parallel lights on the plane through its position
     Vec3 direction{0}; // unit, from the lit position to the point

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/material.h"
 
+#include "core/texture_mix.h"
+
 #include "core/light.h"
 
 #include <algorithm>
@@ -10,26 +12,7 @@ namespace pnr {
 
 namespace {
 
-// How far a metal's tint has faded at this angle: 0 facing, 1 grazing; POV-Ray's fit to a metal's Fresnel
-// curve.
-double metal_fade(double cosine) {
-    const double x = std::acos(std::clamp(cosine, 0.0, 1.0)) / (pi / 2);
-    return std::clamp(0.014567225 / ((x - 1.12) * (x - 1.12)) - 0.011612903, 0.0, 1.0);
-}
-
-Color metal_tint(Color pigment, double metallic, double fade) {
-    return Color(1) + static_cast<float>(metallic * (1 - fade)) * (pigment - Color(1));
-}
-
 Color clamp_albedo(Color c) { return glm::clamp(c, Color(0), Color(1)); }
-
-// Between min and max of POV-Ray's reflection; `fresnel` is the interface's reflectance at this angle.
-Color reflection_at(const Reflection& r, Color pigment, double cosine, double fresnel) {
-    const double share = r.fresnel ? fresnel : std::pow(std::max(0.0, 1 - cosine), r.falloff);
-    Color value = r.min + static_cast<float>(share) * (r.max - r.min);
-    if (r.metallic > 0) value *= metal_tint(pigment, r.metallic, metal_fade(cosine));
-    return clamp_albedo(value);
-}
 
 // POV-Ray adds s cos^n to the light's colour without a cosine; a Phong lobe g (n + 2) / (2 pi) cos^n has the
 // same peak for g = 2 s / (n + 2). A half-vector lobe of exponent m looks like a mirror-direction lobe of m
@@ -54,46 +37,66 @@ GlossyLobe highlight(const Finish& finish) {
 void orient(Bsdf& bsdf, const Hit& hit, Vec3 outgoing) {
     bsdf.inside = glm::dot(hit.normal, outgoing) < 0;
     bsdf.geometric = bsdf.inside ? -hit.normal : hit.normal;
-    bsdf.normal = bsdf.inside ? -hit.shading_normal : hit.shading_normal;
-    // A shading normal that looks away from the viewer would make the surface black there.
-    if (!(glm::dot(bsdf.normal, outgoing) > 0)) bsdf.normal = bsdf.geometric;
 }
 
-} // namespace
+// What the layers of one texture ask for; what they share of the light is settled at the end.
+struct Sum {
+    Bsdf& bsdf;
+    double exponents = 0; // glossy_exponent times the glossy lobe
+    Vec3 normal{0};
 
-Bsdf make_bsdf(const World& world, const Hit& hit, Vec3 outgoing) {
-    Bsdf bsdf;
-    orient(bsdf, hit, outgoing);
-    const Surface& surface = world.surfaces[hit.surface];
-    if (surface.light >= 0) { // emitters are black and shine from one side
-        if (!bsdf.inside) bsdf.emission = world.lights[static_cast<std::size_t>(surface.light)].radiance;
-        return bsdf;
-    }
-    const Material& material = world.materials[static_cast<std::size_t>(surface.material)];
-    const Finish& finish = material.finish;
-    const ColorFT pigment = eval_pigment(material.pigment, hit.position, hit.uv);
-    const Color rgb = clamp_albedo(pigment.rgb);
-    const double cosine = std::clamp(glm::dot(bsdf.normal, outgoing), 0.0, 1.0);
-    bsdf.emission = finish.emission * pigment.rgb;
-    // The share that passes, per channel and as a whole (POV-Ray: filter by the pigment's largest component).
-    const Color passing = clamp_albedo(rgb * pigment.filter + Color(pigment.transmit));
-    const float through = std::clamp(pigment.filter * max_component(rgb) + pigment.transmit, 0.f, 1.f);
-    const double ior = material.interior.ior > 0 ? material.interior.ior : 1;
-    bsdf.eta = bsdf.inside ? ior : 1 / ior;
+    void add_layer(const LayerPoint& layer, const Interior& interior, Vec3 outgoing, Color& mirror, float share);
+    void add_texture(const Material& material, const Texture& plain, const SurfacePoint& at, Vec3 outgoing,
+                     float share);
+};
+
+void Sum::add_layer(const LayerPoint& layer, const Interior& interior, Vec3 outgoing, Color& mirror, float share) {
+    const Finish& finish = layer.finish;
+    const Color rgb = clamp_albedo(layer.color), above = clamp_albedo(layer.above);
+    const double cosine = std::clamp(glm::dot(layer.normal, outgoing), 0.0, 1.0);
+    // The share that passes as a whole (POV-Ray: filter by the pigment's largest component).
+    const float through = std::clamp(max_component(layer.passed), 0.f, 1.f);
     const double fresnel =
-        through > 0 || finish.reflection.fresnel ? fresnel_dielectric(cosine, bsdf.eta) : 0;
-    const Color reflection = reflection_at(finish.reflection, rgb, cosine, fresnel);
+        finish.reflection.fresnel
+            ? fresnel_dielectric(cosine, bsdf.inside ? interior.ior : 1 / interior.ior)
+            : 0;
+    const Color reflected = clamp_albedo(reflectance(finish.reflection, rgb, cosine, fresnel));
+    const GlossyLobe lobe = highlight(finish);
+    const Color glossy = above * static_cast<float>(lobe.albedo) *
+                         (finish.metallic > 0 ? metal_tint(rgb, finish.metallic, cosine) : Color(1));
+    bsdf.emission += share * above * finish.emission * layer.color;
+    bsdf.diffuse += share * above * rgb * static_cast<float>(std::max(0.0, finish.diffuse)) * (1 - through);
+    bsdf.glossy += share * glossy;
+    bsdf.tint += share * above * rgb * (1 - through);
+    bsdf.metal = std::max(bsdf.metal, std::clamp(std::max(finish.metallic, finish.reflection.metallic), 0.0, 1.0));
+    exponents += share * max_component(glossy) * lobe.exponent;
+    normal += static_cast<double>(share) *
+              (static_cast<double>(max_component(above)) * (1.001 - through) + max_component(reflected)) * layer.normal;
+    mirror = clamp_albedo(mirror + reflected);
+}
+
+void Sum::add_texture(const Material& material, const Texture& plain, const SurfacePoint& at,
+                      Vec3 outgoing, float share) {
+    Color mirror(0);
+    Color lowest(0);
+    std::optional<Vec3> top;
+    const Color passed = clamp_albedo(for_each_layer(plain, at, [&](const LayerPoint& layer) {
+        if (!top) top = layer.normal;
+        lowest = clamp_albedo(layer.color);
+        add_layer(layer, material.interior, outgoing, mirror, share);
+    }));
+    const float through = max_component(passed);
     // The interface reflects at least by Fresnel's law where light passes it; an author's reflection may be
     // stronger.
-    const Color interface_reflection = Color(through > 0 ? static_cast<float>(fresnel) : 0.f);
-    bsdf.mirror = glm::max(interface_reflection * through, reflection);
-    bsdf.transmit = passing * (Color(1) - glm::max(interface_reflection, reflection));
-    bsdf.diffuse = rgb * static_cast<float>(std::max(0.0, finish.diffuse)) * (1 - through);
-    const GlossyLobe lobe = highlight(finish);
-    bsdf.glossy_exponent = lobe.exponent;
-    bsdf.glossy =
-        Color(static_cast<float>(lobe.albedo)) * metal_tint(rgb, finish.metallic, metal_fade(cosine));
-    // What is left for the scattering lobes; they share it when they ask for more.
+    const double cosine = top ? std::clamp(glm::dot(*top, outgoing), 0.0, 1.0) : 1;
+    const Color interface_reflection(through > 0 ? static_cast<float>(fresnel_dielectric(cosine, bsdf.eta)) : 0.f);
+    bsdf.mirror += share * glm::max(interface_reflection * through, mirror);
+    bsdf.transmit += share * passed * (Color(1) - glm::max(interface_reflection, mirror));
+    bsdf.tint += share * through * lowest;
+}
+
+// What is left for the scattering lobes; they share it when they ask for more.
+void conserve_energy(Bsdf& bsdf) {
     const Color left = glm::max(Color(0), Color(1) - bsdf.mirror - bsdf.transmit);
     for (int c = 0; c < 3; ++c) {
         const float asked = bsdf.diffuse[c] + bsdf.glossy[c];
@@ -101,20 +104,73 @@ Bsdf make_bsdf(const World& world, const Hit& hit, Vec3 outgoing) {
         bsdf.diffuse[c] *= left[c] / asked;
         bsdf.glossy[c] *= left[c] / asked;
     }
+}
+
+} // namespace
+
+Bsdf make_bsdf(const World& world, const Hit& hit, Vec3 outgoing) {
+    Bsdf bsdf;
+    orient(bsdf, hit, outgoing);
+    bsdf.normal = bsdf.geometric;
+    const Surface& surface = world.surfaces[hit.surface];
+    if (surface.light >= 0) { // emitters are black and shine from one side
+        if (!bsdf.inside) bsdf.emission = world.lights[static_cast<std::size_t>(surface.light)].radiance;
+        return bsdf;
+    }
+    const Material& material = world.materials[static_cast<std::size_t>(surface.material)];
+    const double ior = material.interior.ior > 0 ? material.interior.ior : 1;
+    bsdf.eta = bsdf.inside ? ior : 1 / ior;
+    SurfacePoint at = facing_point(hit, -outgoing);
+    // A shading normal that looks away from the viewer would make the surface black there.
+    if (!(glm::dot(at.normal, outgoing) > 0)) at.normal = bsdf.geometric;
+    Sum sum{bsdf};
+    const Texture& texture = side_texture(material, bsdf.inside);
+    if (is_single(hit, texture))
+        sum.add_texture(material, texture, at, outgoing, 1);
+    else
+        for_each_texture(world, hit, bsdf.inside, at, [&](const Texture& plain, const SurfacePoint& here, double share) {
+            sum.add_texture(material, plain, here, outgoing, static_cast<float>(share));
+        });
+    const double length = glm::length(sum.normal);
+    bsdf.normal = length > 0 && glm::dot(sum.normal, outgoing) > 0 ? sum.normal / length : at.normal;
+    if (const float glossy = max_component(bsdf.glossy); glossy > 0) bsdf.glossy_exponent = sum.exponents / glossy;
+    conserve_energy(bsdf);
     return bsdf;
 }
 
+namespace {
+
+bool reflects(const TextureLayer& layer) {
+    const Reflection& r = layer.finish.reflection;
+    return max_component(r.max) > 0 || max_component(r.min) > 0;
+}
+
+bool mirrors(const Texture& texture) {
+    if (!is_plain(texture))
+        return std::any_of(texture.textures.begin(), texture.textures.end(),
+                           [](const auto& entry) { return mirrors(entry.value); });
+    return reflects(texture) || std::any_of(texture.upper.begin(), texture.upper.end(), reflects);
+}
+
+bool lets_light_through(const Texture& texture) {
+    if (!is_plain(texture))
+        return std::any_of(texture.textures.begin(), texture.textures.end(),
+                           [](const auto& entry) { return lets_light_through(entry.value); });
+    return is_see_through(texture.pigment) &&
+           std::all_of(texture.upper.begin(), texture.upper.end(),
+                       [](const TextureLayer& layer) { return is_see_through(layer.pigment); });
+}
+
+} // namespace
+
 bool is_specular(const Material& material) {
-    if (material.photons.specular_probability.value_or(0) > 0) return true;
-    if (max_component(material.finish.reflection.max) > 0 ||
-        max_component(material.finish.reflection.min) > 0)
-        return true;
-    if (const auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern))
-        return picture->once || std::any_of(picture->image->pixels.begin(), picture->image->pixels.end(),
-                                            [](const glm::vec4& p) { return p.w < 1; });
-    return std::any_of(material.pigment.map.begin(), material.pigment.map.end(), [](const ColorStop& stop) {
-        return stop.color.filter > 0 || stop.color.transmit > 0;
-    });
+    return material.photons.specular_probability.value_or(0) > 0 || lets_light_through(material) ||
+           mirrors(material.texture) || (material.interior_texture && mirrors(*material.interior_texture));
+}
+
+bool lets_light_through(const Material& material) {
+    return lets_light_through(material.texture) ||
+           (material.interior_texture && lets_light_through(*material.interior_texture));
 }
 
 bool has_diffuse(const Bsdf& bsdf) { return !is_black(bsdf.diffuse) || !is_black(bsdf.glossy); }

@@ -2,6 +2,8 @@
 // One energy-conserving BSDF made of a POV-Ray finish, used alike by photons, the eye and the path tracer in photon-lit
 // scenes. Directions point away from the surface, are unit, and live in world space.
 //
+// Where a texture has several finishes, as layers or as parts of a pattern, their lobes are added, each with its share.
+//
 // Lobes: Lambertian diffuse (pigment * diffuse), a glossy lobe (specular or phong), a perfect mirror (reflection), and a
 // dielectric interface (pigment filter/transmit with interior ior; Fresnel shares light between mirror and refraction).
 #pragma once
@@ -22,6 +24,8 @@ struct Bsdf {
     Color transmit{0};        // transmittance into the refracted direction (Fresnel included); black at total reflection
     double eta = 1;           // ior of the side of `outgoing` over that of the other side
     Color emission{0};
+    Color tint{0};    // the pigment's colour, whatever the finish makes of it
+    double metal = 0; // how far highlights and reflections have it, 0..1
 };
 
 // `outgoing` points back along the ray that found the hit.
@@ -29,6 +33,7 @@ Bsdf make_bsdf(const World& world, const Hit& hit, Vec3 outgoing);
 
 // Whether light may leave the material by mirror, refraction or straight through, somewhere on it.
 bool is_specular(const Material& material);
+bool lets_light_through(const Material& material); // straight or refracted
 bool has_diffuse(const Bsdf& bsdf);  // a gather or a stored photon makes sense here
 bool has_specular(const Bsdf& bsdf); // mirror or refraction
 

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -98,7 +99,7 @@ struct MeshBuilder {
 
 MeshData parse_ply(MeshCursor in);
 MeshData parse_off(MeshCursor in);
-MeshData parse_obj(MeshCursor in);
+MeshData parse_obj(MeshCursor in, const std::filesystem::path* folder); // of its materials; null: none are read
 MeshData parse_stl(MeshCursor in);
 
 } // namespace pnr

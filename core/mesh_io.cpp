@@ -44,7 +44,8 @@ void drop_broken_normals(MeshData& mesh) {
 
 } // namespace
 
-MeshData parse_mesh(std::string_view bytes, const std::string& name, const SourceRef& said_at) {
+MeshData parse_mesh(std::string_view bytes, const std::string& name, const SourceRef& said_at,
+                    const std::filesystem::path* folder) {
     const MeshCursor in{bytes.data(), bytes.data() + bytes.size(), name, said_at};
     MeshCursor start = in;
     const std::string_view word = start.word();
@@ -53,7 +54,7 @@ MeshData parse_mesh(std::string_view bytes, const std::string& name, const Sourc
     if (word == "ply")
         mesh = parse_ply(in);
     else if (ending == "obj")
-        mesh = parse_obj(in);
+        mesh = parse_obj(in, folder);
     else if (word.ends_with("OFF"))
         mesh = parse_off(in);
     else if (ending == "stl" || word == "solid")
@@ -81,7 +82,8 @@ MeshData read_mesh(const std::filesystem::path& file, const SourceRef& said_at) 
     std::string bytes(static_cast<std::size_t>(size), '\0');
     stream.seekg(0);
     if (!stream.read(bytes.data(), size)) throw FileError("cannot read the mesh '" + file.string() + "'");
-    return parse_mesh(bytes, file.filename().string(), said_at);
+    const std::filesystem::path folder = file.parent_path();
+    return parse_mesh(bytes, file.filename().string(), said_at, &folder);
 }
 
 std::vector<Vec3f> area_weighted_normals(std::span<const Vec3f> positions,

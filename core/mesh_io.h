@@ -16,8 +16,9 @@ namespace pnr {
 // file holds, no triangle.
 MeshData read_mesh(const std::filesystem::path& file, const SourceRef& said_at);
 // The same from bytes in memory. `name` is for messages, and its ending decides for OBJ, which has no mark of
-// its own.
-MeshData parse_mesh(std::string_view bytes, const std::string& name, const SourceRef& said_at);
+// its own; `folder` is where an OBJ's materials lie (mesh_materials.h), null: they are not read.
+MeshData parse_mesh(std::string_view bytes, const std::string& name, const SourceRef& said_at,
+                    const std::filesystem::path* folder = nullptr);
 
 // Unit vertex normals, the mean of the triangles' at each position weighted by area: zero where all are
 // degenerate.

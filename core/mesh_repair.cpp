@@ -161,7 +161,7 @@ void turn_outside_out(HalfedgeMesh& mesh, Report& report) {
 }
 
 void repair(HalfedgeMesh& mesh, Report& report) {
-    report.count(pmp::stitch_borders(mesh), "pair of edges", "sewn together");
+    report.count(pmp::stitch_borders(mesh), "seam", "sewn together");
     const std::size_t faces = mesh.number_of_faces();
     pmp::remove_degenerate_faces(mesh);
     if (mesh.number_of_faces() < faces)

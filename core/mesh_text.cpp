@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // OBJ [Wavefront 1992], OFF [Geomview], STL [3D Systems 1988].
 #include "core/mesh_cursor.h"
+#include "core/mesh_materials.h"
 
+#include <algorithm>
+#include <map>
 #include <unordered_map>
 
 namespace pnr {
@@ -91,9 +94,47 @@ MeshData parse_binary_stl(MeshCursor in, std::uint32_t count) {
 
 } // namespace
 
-MeshData parse_obj(MeshCursor in) {
+namespace {
+
+// What `mtllib` and `usemtl` say: files, and which material each triangle has.
+struct ObjMaterials {
+    std::vector<std::string> files, names;
+    std::uint32_t current = no_texture;
+    std::vector<std::uint32_t> of_triangle;
+
+    void use(std::string_view name) {
+        const auto found = std::find(names.begin(), names.end(), name);
+        current = static_cast<std::uint32_t>(found - names.begin());
+        if (found == names.end()) names.emplace_back(name);
+    }
+};
+
+// The textures of the materials that are known; triangles of others show the object's.
+void add_textures(MeshData& mesh, const ObjMaterials& said, const std::filesystem::path& folder, const SourceRef& said_at) {
+    std::map<std::string, Texture, std::less<>> known;
+    for (const std::string& file : said.files)
+        if (stays_below(file)) known.merge(read_materials(folder / file, said_at));
+    auto textures = std::make_shared<PartTextures>();
+    std::vector<std::uint32_t> numbers;
+    for (const std::string& name : said.names) {
+        const auto found = known.find(name);
+        numbers.push_back(found == known.end() ? no_texture : static_cast<std::uint32_t>(textures->list.size()));
+        if (found != known.end()) textures->list.push_back(found->second);
+    }
+    if (textures->list.empty()) return;
+    mesh.textures = std::move(textures);
+    for (const std::uint32_t material : said.of_triangle) {
+        const std::uint32_t number = material == no_texture ? no_texture : numbers[material];
+        mesh.texture_triangles.push_back({number, number, number});
+    }
+}
+
+} // namespace
+
+MeshData parse_obj(MeshCursor in, const std::filesystem::path* folder) {
     MeshBuilder builder;
     MeshData& mesh = builder.mesh;
+    ObjMaterials materials;
     bool all_uvs = true, all_normals = true;
     std::vector<ObjCorner> corners;
     for (; in.at != in.end; in.skip_line()) {
@@ -114,9 +155,15 @@ MeshData parse_obj(MeshCursor in) {
                 mesh.triangles.push_back({a.position, b.position, c.position});
                 mesh.uv_triangles.push_back({a.uv, b.uv, c.uv});
                 mesh.normal_triangles.push_back({a.normal, b.normal, c.normal});
+                materials.of_triangle.push_back(materials.current);
             }
+        } else if (word == "usemtl") {
+            materials.use(in.word());
+        } else if (word == "mtllib") {
+            while (!in.at_line_end()) materials.files.emplace_back(in.word());
         }
     }
+    if (folder && !materials.names.empty()) add_textures(mesh, materials, *folder, in.said_at);
     if (!all_uvs || mesh.uvs.empty()) mesh.uvs.clear(), mesh.uv_triangles.clear();
     if (!all_normals || mesh.normals.empty()) mesh.normals.clear(), mesh.normal_triangles.clear();
     return std::move(mesh);

@@ -30,7 +30,10 @@ MeshData tessellate(const BicubicPatch& patch) {
             const Vec3 n = glm::cross(along_u, along_v);
             mesh.positions.emplace_back(p);
             mesh.normals.emplace_back(n == Vec3(0) ? Vec3(0) : glm::normalize(n));
-            mesh.uvs.emplace_back(static_cast<double>(column) / columns, static_cast<double>(row) / rows);
+            const double u = static_cast<double>(column) / columns, v = static_cast<double>(row) / rows;
+            const auto& corner = patch.corner_uv;
+            mesh.uvs.emplace_back((1 - v) * ((1 - u) * corner[0] + u * corner[1]) +
+                                  v * ((1 - u) * corner[3] + u * corner[2]));
         }
     }
     const auto at = [&](int row, int column) {

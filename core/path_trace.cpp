@@ -17,6 +17,7 @@ Color next_event(const World& world, const Hit& hit, const Bsdf& bsdf, Vec3 outg
                  Rng& rng) {
     Color sum{0};
     for (const Light& light : world.lights) {
+        if (!shines_on(light, world.surfaces[hit.surface])) continue;
         const LightSample sample = sample_light(light, hit.position, rng.uniform2());
         if (is_black(sample.irradiance)) continue;
         const double cosine = glm::dot(sample.direction, bsdf.normal);
@@ -93,7 +94,7 @@ Color path_radiance(const World& world, const Ray& camera_ray, const RenderSetti
     RayKind kind = RayKind::camera;
     for (int level = 0;; ++level) {
         const std::optional<Hit> hit = closest_hit(world, ray, kind);
-        if (!hit) return sum + throughput * world.background;
+        if (!hit) return sum + throughput * sky_radiance(world, ray.direction);
         const Vec3 outgoing = -ray.direction;
         const Bsdf bsdf = make_bsdf(world, *hit, outgoing);
         if (level > 0) throughput *= segment_transmittance(world, *hit, bsdf, hit->t);

@@ -46,6 +46,7 @@ struct PhotonMap {
     KdTree tree;                 // over photons' positions
     KdTree caustic; // over those of the caustic photons alone; `order` holds indices into photons
     std::int64_t emitted = 0;
+    int pass = 0; // of progressive passes; others than the first have other random numbers
     PowerBalance balance;
     float radius = 0;         // gather radius cap in world units that suits this map
     float caustic_radius = 0; // likewise for its caustic photons, which lie closer; 0 if there are none

@@ -35,7 +35,7 @@ struct Decision {
 Plan make_plan(const World& world, const Settings& settings, bool maps) {
     const PaintNeeds paint = paint_needs(world);
     const bool path = settings.render.integrator == Integrator::path;
-    const bool lit = world.illumination != Illumination::raytraced && !path;
+    const bool lit = (world.illumination == Illumination::photon_mapped || world.caustics_apart) && !path;
     const bool photons = lit || paint.any;
     const char* unwanted = path ? "paths need no photons and nothing is painted"
                                 : "no photons are wanted and nothing is painted";

@@ -2,6 +2,7 @@
 #include "core/probe.h"
 
 #include "core/geometry.h"
+#include "core/shape_hits.h"
 #include "core/world.h"
 
 #include <variant>
@@ -34,7 +35,11 @@ Bounds shape_box(const Object& object) {
     GeometryItem item;
     item.form = *object.shape;
     item.to_world = object.transform;
-    return inside_bounds(item);
+    // An endless inside is no extent, but for planes along an axis, where POV-Ray says how far the half space
+    // reaches.
+    return has_endless_inside(*object.shape) && !std::holds_alternative<Plane>(*object.shape)
+               ? item_bounds(item)
+               : inside_bounds(item);
 }
 
 } // namespace
@@ -60,7 +65,7 @@ std::optional<ProbeHit> trace(const Probe& probe, Vec3 origin, Vec3 direction) {
     if (!(length > 0)) return std::nullopt;
     const auto hit = closest_hit(world, {origin - world.offset, direction / length, 1e-6}, RayKind::camera);
     if (!hit) return std::nullopt;
-    const Shape& shape = std::get<Shape>(geometry_items(*world.geometry)[hit->surface].form);
+    const Shape& shape = std::get<Shape>(geometry_items(*world.geometry)[hit->leaf].form);
     const Mesh* mesh = std::get_if<Mesh>(&shape);
     const bool faces_away =
         mesh && (mesh->data->normals.empty() || glm::dot(hit->shading_normal, direction) > 0);

@@ -210,7 +210,8 @@ Color direct_light(const World& world, const Hit& hit, const Bsdf& bsdf, Vec3 ou
     Color sum{0};
     for (std::size_t i = 0; i < world.lights.size(); ++i) {
         const Light& light = world.lights[i];
-        const int count = light.is_emitter() ? std::max(1, samples) : 1;
+        if (!shines_on(light, world.surfaces[hit.surface])) continue;
+        const int count = light.has_extent() ? std::max(1, samples) : 1;
         const LightPoints own{hash_words(points.key, 16 + i), points.first};
         sum += light_by_light_points(world, light, hit, bsdf, outgoing, count,
                                      glossy && light.is_emitter() ? count : 0, own);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/render.h"
 
+#include "core/image_io.h"
+#include "core/light.h"
 #include "core/path_trace.h"
+#include "core/radiosity.h"
+#include "core/sampling.h"
 #include "core/shade.h"
 
 #include <atomic>
@@ -30,11 +34,19 @@ struct Counts {
     std::int64_t rays = 0, gathers = 0;
 };
 
+// How many rays a pixel gets at first, and where it differs from its neighbours.
+struct SampleCounts {
+    int first = 1, most = 1;
+    bool grid = false; // POV-Ray's method 1
+};
+
 struct Job {
     const Shading& shading;
     const GBuffer& gbuffer;
     const Settings& settings;
+    SampleCounts samples;
     PixelRect window; // pixels with sums: the picture's window and an apron of one pixel
+    int first_sample = 0; // of each pixel's sequence
     std::vector<PixelSums> sums;
 
     std::size_t index(int x, int y) const {
@@ -62,6 +74,35 @@ Color checked(Color c, SampleFaults& faults) {
     return c;
 }
 
+// Sample i of POV-Ray's method 1: the centre, then the grid's places [POV-Ray 3.7 reference, "Anti-Aliasing Options"].
+Vec2 grid_sample(const RenderSettings& settings, int x, int y, int i) {
+    const GridSampling& grid = settings.grid;
+    if (i == 0) return Vec2(x, y) + 0.5;
+    Vec2 place((i - 1) % grid.depth + 0.5, (i - 1) / grid.depth + 0.5);
+    if (grid.jitter > 0) place += grid.jitter * (pixel_sample(settings.seed, x, y, i) - Vec2(x, y) - 0.5);
+    return Vec2(x, y) + place / static_cast<double>(grid.depth);
+}
+
+// The camera ray of sample i of a pixel.
+Ray sample_ray(const Job& job, int x, int y, int i) {
+    const RenderSettings& settings = job.settings.render;
+    const Vec2 pixel = job.samples.grid ? grid_sample(settings, x, y, i) : pixel_sample(settings.seed, x, y, i);
+    if (!(job.gbuffer.view.camera.lens.aperture > 0)) return pixel_ray(job.gbuffer.view, pixel);
+    const std::uint64_t key = make_rng(settings.seed, Pass::render, pixel_place(x, y)).key;
+    return lens_ray(job.gbuffer.view, pixel, square_to_disc(sobol_point(static_cast<std::uint32_t>(i), hash_words(key, 7))));
+}
+
+SampleCounts sample_counts(const World& world, const RenderSettings& settings) {
+    SampleCounts counts;
+    const bool path = settings.integrator == Integrator::path;
+    const int blur = world.camera.lens.aperture > 0 ? world.camera.lens.samples_max : 0;
+    counts.grid = !path && world.illumination != Illumination::photon_mapped && blur == 0;
+    counts.first = counts.grid ? 1 : std::max({1, blur, path ? settings.samples_max : settings.samples_min});
+    counts.most = counts.grid ? 1 + settings.grid.depth * settings.grid.depth : settings.samples_max;
+    counts.most = std::max(counts.first, counts.most);
+    return counts;
+}
+
 void add_photon_mapped_sample(const Job& job, int x, int y, int i, std::vector<KeptIrradiance>& kept,
                               std::vector<Neighbour>& scratch, PixelSums& sums, Counts& counts) {
     const RenderSettings& settings = job.settings.render;
@@ -77,7 +118,12 @@ void add_photon_mapped_sample(const Job& job, int x, int y, int i, std::vector<K
                     static_cast<std::uint32_t>(i < base ? i * early : base * early + (i - base) * late)};
     state.kept = &kept;
     state.scratch = &scratch;
-    const Ray ray = pixel_ray(job.gbuffer.view, pixel_sample(settings.seed, x, y, i));
+    const Ray ray = sample_ray(job, x, y, i);
+    if (sees_nothing(ray)) {
+        ++sums.plain.count;
+        return;
+    }
+    if (job.shading.gathered) state.pixel_width = pixel_width(job.gbuffer.view, Vec2(x + 0.5, y + 0.5));
     const Color radiance = checked(shade(job.shading, ray, state), counts.faults);
     PixelSums::Group& group = state.painted ? sums.painted : sums.plain;
     group.radiance += radiance;
@@ -98,17 +144,19 @@ void add_path(const Job& job, int x, int y, int i, PixelSums& sums, Counts& coun
     const RenderSettings& settings = job.settings.render;
     Rng rng = make_rng(settings.seed, Pass::render, pixel_place(x, y));
     rng.key = hash_words(rng.key, static_cast<std::uint64_t>(i));
-    const Ray ray = pixel_ray(job.gbuffer.view, pixel_sample(settings.seed, x, y, i));
+    const Ray ray = sample_ray(job, x, y, i);
+    ++sums.plain.count;
+    if (sees_nothing(ray)) return;
     sums.plain.radiance += checked(path_radiance(job.shading.world, ray, settings, true, rng), counts.faults);
     sums.plain.alpha += 1;
-    ++sums.plain.count;
     ++counts.rays;
 }
 
 void add_samples(const Job& job, int x, int y, int end, PixelSums& sums, Counts& counts) {
     std::vector<KeptIrradiance> kept;
     std::vector<Neighbour> scratch;
-    for (int i = sums.count(); i < end; ++i) {
+    for (int n = sums.count(); n < end; ++n) {
+        const int i = job.first_sample + n;
         if (job.settings.render.integrator == Integrator::path)
             add_path(job, x, y, i, sums, counts);
         else
@@ -150,8 +198,32 @@ bool contrasts(Color a, Color b, double contrast) {
     return false;
 }
 
+// As a display shows a value about which POV-Ray compares pixels.
+float encoded(float value, const GridSampling& grid) {
+    const double light = std::clamp(linear_from_working(value, grid.value_gamma), 0.0f, 1.0f);
+    return static_cast<float>(std::pow(light, 1 / grid.gamma));
+}
+
+bool grid_contrasts(Color a, Color b, const GridSampling& grid) {
+    if (a == b) return false;
+    float sum = 0;
+    for (int i = 0; i < 3; ++i) sum += std::abs(encoded(a[i], grid) - encoded(b[i], grid));
+    return sum >= grid.threshold;
+}
+
+// Whether the pixel differs from one beside it.
+bool grid_wants_more(const Job& job, const std::vector<PixelSums>& first, int x, int y) {
+    const Color mine = mean_radiance(first[job.index(x, y)].plain);
+    for (const auto& [dx, dy] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}})
+        if (job.window.contains(x + dx, y + dy) &&
+            grid_contrasts(mine, mean_radiance(first[job.index(x + dx, y + dy)].plain), job.settings.render.grid))
+            return true;
+    return false;
+}
+
 bool wants_more(const Job& job, const std::vector<PixelSums>& first, int x, int y) {
     if (on_painted_border(job, x, y)) return true;
+    if (job.samples.grid) return grid_wants_more(job, first, x, y);
     const PixelSums& here = first[job.index(x, y)];
     const Color mine = mean_radiance(here.plain);
     for (int dy = -1; dy <= 1; ++dy)
@@ -241,7 +313,7 @@ void write_pixel(const Job& job, int x, int y, RenderResult& result) {
 // What the map is asked for: nothing where there is none, caustics alone in POV-Ray's `photons {}` scenes.
 void choose_gathers(Shading& shading, const PhotonSettings& photons) {
     shading.indirect.count = shading.caustic.count = 0;
-    if (shading.map.photons.empty() || shading.world.illumination == Illumination::raytraced) return;
+    if (shading.map.photons.empty()) return;
     const GatherSettings both = default_gather(shading.world, shading.map, photons);
     shading.caustic = caustic_gather(shading.map, both);
     if (shading.map.caustic.count == 0) shading.caustic.count = 0;
@@ -267,16 +339,28 @@ RenderResult empty_result(int width, int height, bool want_parts) {
 } // namespace
 
 RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap& map,
-                    const Settings& settings, PixelRect window, bool want_parts, const Progress& progress) {
+                    const Settings& settings, PixelRect window, bool want_parts, const Progress& progress,
+                    std::optional<SampleRange> samples) {
     const int width = gbuffer.view.width, height = gbuffer.view.height;
     RenderResult result = empty_result(width, height, want_parts);
-    const bool path = settings.render.integrator == Integrator::path;
-    const int first = std::max(1, path ? settings.render.samples_max : settings.render.samples_min);
-    const int most = std::max(first, settings.render.samples_max);
-    Shading shading{world, map, settings.render, {}, {}, want_parts};
+    Shading shading{world, map, settings.render, {}, {}, want_parts, nullptr, nullptr};
     choose_gathers(shading, settings.photons);
 
-    Job job{shading, gbuffer, settings, grow(window, 1, width, height), {}};
+    const bool gathers = world.illumination == Illumination::radiosity && settings.render.integrator == Integrator::photons;
+    if (gathers) shading.radiosity = &settings.radiosity;
+    const auto gathered = gathers ? make_gathered_light(shading, gbuffer.view, {}) : nullptr;
+    shading.gathered = gathered.get();
+    // Samples that are given need no look at the neighbours.
+    const SampleCounts counted =
+        samples ? SampleCounts{samples->count, samples->count} : sample_counts(world, settings.render);
+    const int first = counted.first, most = counted.most;
+    Job job{shading,
+            gbuffer,
+            settings,
+            counted,
+            grow(window, samples ? 0 : 1, width, height),
+            samples ? samples->first : 0,
+            {}};
     job.sums.resize(static_cast<std::size_t>(area(job.window)));
     const PixelRect inner = grow(window, 0, width, height);
     const std::int64_t total = std::max<std::int64_t>(1, area(job.window) + area(inner));

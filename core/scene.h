@@ -3,10 +3,12 @@
 // files and pictures are named, not loaded. All coordinates are the author's (scene space).
 #pragma once
 
+#include "core/atmosphere.h"
 #include "core/camera.h"
 #include "core/pigment.h"
 #include "core/settings.h"
 #include "core/shape.h"
+#include "core/texture.h"
 #include "core/types.h"
 
 #include <functional>
@@ -17,36 +19,9 @@
 
 namespace pnr {
 
-// POV-Ray's `reflection`: between min (facing) and max (grazing).
-struct Reflection {
-    Color min{0}, max{0};
-    double falloff = 1;
-    double exponent = 1;
-    double metallic = 0;   // 0..1: how far the pigment tints it
-    bool fresnel = false;
-};
-
-struct Finish { // defaults are POV-Ray 3.7's
-    Color ambient{0.1f};
-    Color emission{0};
-    double diffuse = 0.6;
-    double brilliance = 1;
-    double phong = 0, phong_size = 40;
-    double specular = 0, roughness = 0.05;
-    double metallic = 0;   // of the highlights
-    Reflection reflection;
-    bool conserve_energy = false;
-};
-
-struct Interior {
-    double ior = 1;
-    double fade_distance = 0, fade_power = 0;
-    Color fade_color{0};
-};
-
-struct Texture {
-    Pigment pigment;
-    Finish finish;
+// Textures that a shape's triangles or components number, in the shape's own space.
+struct PartTextures {
+    std::vector<Texture> list;
 };
 
 // Object-level `photons { ... }`. PSR and PA of [LW10 Table 1], in sequence: specular with probability
@@ -80,6 +55,18 @@ struct Emitter {
     std::optional<double> power;     // W
 };
 
+// POV-Ray's area_light: points of a grid about the light's position; a lit point's shadow is the share of them that it
+// does not see.
+struct AreaGrid {
+    Vec3 u{1, 0, 0}, v{0, 0, 1}; // full edges
+    int columns = 1, rows = 1;
+    int adaptive = 100;       // levels at which squares are halved even where their corners agree
+    bool jitter = false;      // points stray within their squares
+    bool circular = false;    // squares are bent to rings
+    bool orient = false;      // it turns towards what it lights
+    bool illuminates = false; // light, not only shadow, comes from the points (area_illumination)
+};
+
 struct Object;
 struct LightSource {
     SourceRef said_at;
@@ -91,6 +78,11 @@ struct LightSource {
     double tightness = 0;
     double fade_distance = 0, fade_power = 0;
     std::optional<Emitter> emitter;
+    std::optional<AreaGrid> area;
+    std::vector<Object> projected_through; // at most one: only light that went through it counts
+    bool media_attenuation = false;        // fog dims it on its way
+    int group = 0;                         // > 0: it lights only the objects of that light_group
+    bool reflection_photons = true, refraction_photons = true; // POV-Ray's `photons` of lights
     std::vector<Object> looks_like;   // at most one; the parser moves it among the scene's objects
     bool no_image = false;            // an emitter hidden from camera rays alone
 };
@@ -117,12 +109,17 @@ struct Object {
     std::vector<Object> bounds;       // bounded_by: believed where the object itself has no end
     bool cutaway_textures = false;    // children without a texture show what they cut through
     std::vector<LightSource> lights;  // that stand in a union; the parser moves them to Scene::lights
+    int light_group = 0;              // > 0: lit by the lights of that group, and ...
+    bool global_lights = true;        // ... by those of none
     Transform transform;              // shape's own space -> scene space
     std::optional<Texture> texture;   // children without one use their parent's
+    std::optional<Texture> interior_texture; // of the inner side; likewise
     std::optional<Interior> interior; // likewise
     std::optional<PhotonRoles> photons;
     std::optional<PaintWord> npr;
-    bool no_shadow = false, no_image = false, no_reflection = false, hollow = false, inverse = false;
+    bool no_shadow = false, no_image = false, no_reflection = false, no_radiosity = false, hollow = false, inverse = false;
+    bool double_illuminate = false;
+    bool uv_mapping = false; // textures said behind it are laid by the surface's own coordinates
 };
 
 struct Scene {
@@ -132,10 +129,13 @@ struct Scene {
     bool has_camera = false;
     std::vector<Object> objects;     // top-level statements, in the order of the text
     std::vector<LightSource> lights;
-    Color background{0};
+    Atmosphere atmosphere;
     Color ambient_light{1};          // global_settings
+    Color irid_wavelength{0.70f, 0.52f, 0.48f}; // global_settings; likewise
+    int noise_generator = 2, number_of_waves = 10; // of patterns that say none
     bool radiosity = false;          // a `radiosity {}` block: indirect light is wanted
     bool povray = false;             // a .pov file
+    double version = 3.7;            // of POV-Ray, that the text asks for (#version)
     // What a value v of the finished picture means: linear light v^assumed_gamma, or, if 0, v through the sRGB curve. Applied
     // by whoever writes the picture; 1 but for POV-Ray scenes that say otherwise.
     double assumed_gamma = 1;

@@ -16,6 +16,7 @@ namespace pnr {
 enum class Illumination {
     raytraced,     // as POV-Ray would: direct light, ambient terms, no photons
     caustics,      // the same plus a caustic map (`photons {}` alone)
+    radiosity,     // the same with gathered light in place of ambient terms: `radiosity {}` in a .pov
     photon_mapped, // direct light by shadow rays, everything indirect from the photon map; ambient terms are
                    // 0
 };
@@ -31,6 +32,26 @@ struct PhotonSettings {
     double radius = 0;    // largest gather radius in scene units; 0: from the scene and the count
 };
 
+// POV-Ray's words of `radiosity` that our own gathering has a use for, with POV-Ray's defaults.
+struct RadiositySettings {
+    double brightness = 1;
+    int recursion_limit = 2; // bounces
+    double gray_threshold = 0; // how far colour bleeding is taken back: 1 makes gathered light grey
+    int count = 35;            // rays that gather at one point (here: at least so many)
+    double error_bound = 1.8;
+    bool normal = false;       // gathered light follows perturbed normals
+};
+
+// How pixels of raytraced pictures are sampled: POV-Ray's method 1. A ray through the centre; where neighbours differ by
+// more than `threshold` (sum over the channels of encoded values), also depth x depth rays of a grid.
+struct GridSampling {
+    double threshold = 0.3;
+    int depth = 3;
+    double jitter = 0;
+    double gamma = 2.5;       // linear light v is compared as v^(1 / gamma), clipped at 1
+    double value_gamma = 1;   // linear light of a value; 0: the sRGB curve
+};
+
 enum class Integrator { photons, path };
 enum class View { clip, shoulder };
 
@@ -40,6 +61,7 @@ struct RenderSettings {
     int samples_min = 4;            // rays a pixel at first ...
     int samples_max = 16;           // ... and where neighbours differ by more than `contrast`
     double contrast = 0.04;         // relative difference that asks for more samples
+    GridSampling grid;              // in their place where a picture is raytraced as POV-Ray would
     bool sharp = true;              // indirect light is gathered anew where the field's records lie too far apart
     int max_trace_level = 10;       // specular chain length; POV-Ray scenes (`.pov`) get 5
     double adc_bailout = 1.0 / 255; // a chain of smaller weight than this is given up
@@ -142,6 +164,7 @@ PaintStyle default_style();
 struct Settings {
     RenderSettings render;
     PhotonSettings photons;
+    RadiositySettings radiosity;
 };
 
 } // namespace pnr

@@ -129,7 +129,7 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
     ++state.rays;
     const World& world = shading.world;
     const std::optional<Hit> hit = closest_hit(world, segment.ray, segment.kind);
-    if (!hit) return world.background;
+    if (!hit) return through_atmosphere(world, segment.ray, infinity, sky_radiance(world, segment.ray.direction));
     const Vec3 outgoing = -segment.ray.direction;
     const Bsdf bsdf = make_bsdf(world, *hit, outgoing);
     const Color passed = segment.level > 0 ? segment_transmittance(world, *hit, bsdf, hit->t) : Color{1};
@@ -152,7 +152,8 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
     const Color specular =
         has_specular(bsdf) ? specular_light(shading, here, *hit, bsdf, chain, state) : Color{0};
     if (segment.level == 0) state.specular += specular;
-    return passed * keep * (surface + specular);
+    const Color seen = keep * (surface + specular);
+    return passed * (bsdf.inside ? seen : through_atmosphere(world, segment.ray, hit->t, seen));
 }
 
 } // namespace

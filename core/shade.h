@@ -10,6 +10,9 @@
 
 namespace pnr {
 
+struct GatheredLight; // radiosity.h
+struct GatherPlace;
+
 // What all samples of a picture share.
 struct Shading {
     const World& world;
@@ -17,6 +20,8 @@ struct Shading {
     const RenderSettings& settings;
     GatherSettings indirect, caustic; // of the map; count 0: none wanted
     bool parts = false;               // LightParts are wanted
+    const RadiositySettings* radiosity = nullptr; // of World illumination radiosity ...
+    const GatheredLight* gathered = nullptr;      // ... and what was gathered beforehand
 };
 
 // Indirect light at a point of a pixel, to be used again by the pixel's other samples that fall on it.
@@ -33,6 +38,9 @@ struct SampleState {
     int shadow_samples = 1; // to each emitter
     std::vector<KeptIrradiance>* kept = nullptr;
     std::vector<Neighbour>* scratch = nullptr;
+    int bounces = 0;         // diffuse ones so far, of gathered light
+    double pixel_width = 0;  // of the camera ray at distance 1; for gathered light
+    std::vector<GatherPlace>* unknown = nullptr; // collects the places whose gathered light is not known yet
     bool on_chain = true;    // still on the chain that the G-buffer follows
     bool painted = false;    // the chain led to paint
     Color painted_weight{0}; // of the light left out for it

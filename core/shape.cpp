@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/shape_hits.h"
+#include "core/polynomial.h"
+#include "core/shape_algebraic.h"
+#include "core/shape_field.h"
+#include "core/shape_swept.h"
 
 #include <algorithm>
 #include <cmath>
@@ -128,6 +131,15 @@ struct Stretch {
     }
 };
 
+// Where POV-Ray lays the faces out: a band of the four sides, the lid over and the bottom under the second of them.
+Vec2 box_uv(Vec3 p, Vec3 outward) { // p: shares of the box's edges
+    if (outward.x < 0) return {0.25 * p.z, (1 + p.y) / 3};
+    if (outward.z > 0) return {0.25 + 0.25 * p.x, (1 + p.y) / 3};
+    if (outward.x > 0) return {0.75 - 0.25 * p.z, (1 + p.y) / 3};
+    if (outward.z < 0) return {1 - 0.25 * p.x, (1 + p.y) / 3};
+    return {0.25 + 0.25 * p.x, outward.y > 0 ? 1 - p.z / 3 : p.z / 3};
+}
+
 void intersect_box(const Box& box, Hits& out) {
     const Vec3 low = glm::min(box.low, box.high), high = glm::max(box.low, box.high);
     Stretch inside;
@@ -136,7 +148,13 @@ void intersect_box(const Box& box, Hits& out) {
         n[axis] = 1;
         if (!inside.cut_slab(out.ray.origin[axis], out.ray.direction[axis], low[axis], high[axis], n)) return;
     }
-    inside.add_to(out);
+    if (inside.empty()) return;
+    const auto add = [&](double t, Vec3 normal) {
+        const Vec3 p = out.ray.origin + t * out.ray.direction;
+        out.add(t, normal, box_uv(glm::clamp((p - low) / (high - low), 0.0, 1.0), normal));
+    };
+    add(inside.enter, inside.enter_normal);
+    add(inside.leave, inside.leave_normal);
 }
 
 void intersect_plane(const Plane& p, Hits& out) {
@@ -172,11 +190,6 @@ struct ConeSide {
     Vec3 normal(double t) const {
         const Vec3 n = o + t * d - radius(t) * slope * axis;
         return n == Vec3(0) ? (slope < 0 ? axis : -axis) : n; // the apex
-    }
-    Vec2 uv(double t, double height) const {
-        const Frame frame = make_frame(axis);
-        const Vec3 p = o + t * d;
-        return {turn_of(glm::dot(p, frame.x), glm::dot(p, frame.y)), (oz + t * dz) / height};
     }
 };
 
@@ -244,7 +257,7 @@ void intersect_cone(const Cone& cone, Hits& out) {
             i == 0 ? roots.low : roots.high, [&](double x) { return s.value(x); },
             [&](double x) { return s.derivative(x); });
         const double z = s.oz + t * s.dz;
-        if (z >= 0 && z <= height) out.add(t, s.normal(t), s.uv(t, height));
+        if (z >= 0 && z <= height) out.add(t, s.normal(t));
     }
 }
 
@@ -280,38 +293,6 @@ struct TorusAlongRay {
     }
 };
 
-// The roots in [low, high] of f, given those of its derivative: f is monotone between them, so each sign
-// change is closed in by bisection with Newton steps [the classic safeguarded scheme, e.g. Press et al.
-// 2007, 9.4].
-template <class F, class D>
-int roots_between(const double* critical, int critical_count, double low, double high, F f, D derivative,
-                  double* roots) {
-    int count = 0;
-    double a = low, fa = f(a);
-    for (int i = 0; i <= critical_count; ++i) {
-        const double b = i < critical_count ? std::clamp(critical[i], low, high) : high;
-        const double fb = f(b);
-        if (b > a && (fa < 0) != (fb < 0)) {
-            double x0 = a, x1 = b, x = 0.5 * (a + b);
-            for (int step = 0; step < 100; ++step) {
-                const double fx = f(x);
-                ((fx < 0) == (fa < 0) ? x0 : x1) = x;
-                const double slope = derivative(x);
-                double next = slope != 0 ? x - fx / slope : x0;
-                if (!(next > x0 && next < x1)) next = 0.5 * (x0 + x1);
-                if (next == x || x1 - x0 <= 0) break;
-                const double moved = std::abs(next - x);
-                x = next;
-                if (moved <= 1e-16 * std::abs(x)) break;
-            }
-            roots[count++] = x;
-        }
-        a = b;
-        fa = fb;
-    }
-    return count;
-}
-
 void intersect_torus(const Torus& torus, Hits& out) {
     const double speed = glm::length(out.ray.direction);
     const double outer = torus.major + std::abs(torus.minor);
@@ -327,21 +308,19 @@ void intersect_torus(const Torus& torus, Hits& out) {
     const double reach = std::sqrt(reach2) * (1 + 1e-12);
     const double k = glm::dot(f.o, f.o) + f.major * f.major - f.minor * f.minor, od = glm::dot(f.o, f.d);
     const double m4 = 4 * f.major * f.major;
-    const double c3 = 4 * od, c2 = 2 * k + 4 * od * od - m4 * (f.d.x * f.d.x + f.d.z * f.d.z),
-                 c1 = 4 * k * od - 2 * m4 * (f.o.x * f.d.x + f.o.z * f.d.z);
-    const auto first = [&](double t) { return ((4 * t + 3 * c3) * t + 2 * c2) * t + c1; };
-    const auto second = [&](double t) { return (12 * t + 6 * c3) * t + 2 * c2; };
-    const Roots inflections = quadratic_roots(12, 3 * c3, 2 * c2, 9 * c3 * c3 - 24 * c2);
-    const double bends[2] = {inflections.low, inflections.high};
-    double critical[3], roots[4];
-    const int critical_count =
-        roots_between(bends, inflections.count, -reach, reach, first, second, critical);
-    const int count = roots_between(
-        critical, critical_count, -reach, reach, [&](double t) { return f.value(t); }, first, roots);
+    const double c[5] = {f.value(0), 4 * k * od - 2 * m4 * (f.o.x * f.d.x + f.o.z * f.d.z),
+                         2 * k + 4 * od * od - m4 * (f.d.x * f.d.x + f.d.z * f.d.z), 4 * od, 1};
+    const auto slope = [&](double t) { return glm::dot(f.gradient(f.o + t * f.d), f.d); };
+    double roots[4];
+    const int count = real_roots(c, -reach, reach, roots);
+    for (int i = 0; i < count; ++i)
+        roots[i] = polish(
+            roots[i], [&](double t) { return f.value(t); }, slope);
     for (int i = 0; i < count; ++i) {
         const Vec3 p = f.o + roots[i] * f.d;
         const double q = std::hypot(p.x, p.z) - f.major;
-        out.add((nearest + roots[i] * outer) / speed, f.gradient(p), {turn_of(p.x, p.z), turn_of(q, p.y)});
+        const double around = turn_of(-p.x, p.z), across = turn_of(-q, -p.y); // from the far sides, as POV-Ray has it
+        out.add((nearest + roots[i] * outer) / speed, f.gradient(p), {around, across});
     }
 }
 
@@ -373,6 +352,52 @@ Bounds shape_bounds(const Shape& shape) {
                 for (const Vec3& point : p.points) b = merge(b, point);
                 return b;
             },
+            [](const Isosurface& s) { return bounds_of(s); },
+            [](const Blob& s) { return bounds_of(s); },
+            [](const HeightField& s) { return bounds_of(s); },
+            [](const JuliaFractal& s) { return bounds_of(s); },
+            [](const Parametric& s) { return bounds_of(s); },
+            [](const Quadric& s) { return bounds_of(s); },
+            [](const PolynomialSurface& s) { return bounds_of(s); },
+            [](const Superellipsoid& s) { return bounds_of(s); },
+            [](const Ovus& s) { return bounds_of(s); },
+            [](const Lathe& s) { return bounds_of(s); },
+            [](const Sor& s) { return bounds_of(s); },
+            [](const Prism& s) { return bounds_of(s); },
+            [](const SphereSweep& s) { return bounds_of(s); },
+            [](const Polygon& s) { return bounds_of(s); },
+            [](const Text& s) { return bounds_of(s); },
+        },
+        shape);
+}
+
+static bool is_finite(Vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+bool has_finite_numbers(const Shape& shape) {
+    return std::visit(
+        Overload{
+            [](const Sphere& s) { return is_finite(s.center) && std::isfinite(s.radius); },
+            [](const Box& b) { return is_finite(b.low) && is_finite(b.high); },
+            [](const Plane& p) { return is_finite(p.normal) && std::isfinite(p.distance); },
+            [](const Cylinder& c) {
+                return is_finite(c.base) && is_finite(c.cap) && std::isfinite(c.radius);
+            },
+            [](const Cone& c) {
+                return is_finite(c.base) && is_finite(c.cap) && std::isfinite(c.base_radius + c.cap_radius);
+            },
+            [](const Torus& t) { return std::isfinite(t.major + t.minor); },
+            [](const Disc& d) {
+                return is_finite(d.center) && is_finite(d.normal) && std::isfinite(d.radius) &&
+                       !std::isnan(d.hole);
+            },
+            [](const Mesh& m) {
+                return !m.data || std::all_of(m.data->positions.begin(), m.data->positions.end(),
+                                              [](Vec3f p) { return is_finite(Vec3(p)); });
+            },
+            [](const BicubicPatch& p) {
+                return std::all_of(p.points.begin(), p.points.end(), [](Vec3 q) { return is_finite(q); });
+            },
+            [](const auto&) { return true; }, // those that are made of finite numbers alone
         },
         shape);
 }
@@ -388,11 +413,26 @@ const char* shape_name(const Shape& shape) {
                           [](const Disc&) { return "disc"; },
                           [](const Mesh&) { return "mesh"; },
                           [](const BicubicPatch&) { return "bicubic_patch"; },
+                          [](const Isosurface&) { return "isosurface"; },
+                          [](const Blob&) { return "blob"; },
+                          [](const HeightField&) { return "height_field"; },
+                          [](const JuliaFractal&) { return "julia_fractal"; },
+                          [](const Parametric&) { return "parametric"; },
+                          [](const Quadric&) { return "quadric"; },
+                          [](const PolynomialSurface&) { return "poly"; },
+                          [](const Superellipsoid&) { return "superellipsoid"; },
+                          [](const Ovus&) { return "ovus"; },
+                          [](const Lathe&) { return "lathe"; },
+                          [](const Sor&) { return "sor"; },
+                          [](const Prism&) { return "prism"; },
+                          [](const SphereSweep&) { return "sphere_sweep"; },
+                          [](const Polygon&) { return "polygon"; },
+                          [](const Text&) { return "text"; },
                       },
                       shape);
 }
 
-int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits) {
+int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits, int enough) {
     hits.clear();
     Hits out{ray, hits};
     std::visit(Overload{
@@ -407,23 +447,45 @@ int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits) {
                    [&](const Disc& d) { intersect_disc(d, out); },
                    [](const Mesh&) {},
                    [](const BicubicPatch&) {},
+                   [&](const Isosurface& s) { intersect(s, ray, hits, enough); },
+                   [&](const Blob& s) { intersect(s, ray, hits, enough); },
+                   [&](const HeightField& s) { intersect(s, ray, hits, enough); },
+                   [&](const JuliaFractal& s) { intersect(s, ray, hits, enough); },
+                   [](const Parametric&) {},
+                   [&](const Quadric& s) { intersect(s, ray, hits); },
+                   [&](const PolynomialSurface& s) { intersect(s, ray, hits); },
+                   [&](const Superellipsoid& s) { intersect(s, ray, hits); },
+                   [&](const Ovus& s) { intersect(s, ray, hits); },
+                   [&](const Lathe& s) { intersect(s, ray, hits); },
+                   [&](const Sor& s) { intersect(s, ray, hits); },
+                   [&](const Prism& s) { intersect(s, ray, hits); },
+                   [&](const SphereSweep& s) { intersect(s, ray, hits); },
+                   [&](const Polygon& s) { intersect(s, ray, hits); },
+                   [&](const Text& s) { intersect(s, ray, hits); },
                },
                shape);
     return static_cast<int>(hits.size());
 }
 
+bool has_uv(const Shape& shape) {
+    if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->data && !mesh->data->uvs.empty();
+    return std::holds_alternative<Sphere>(shape) || std::holds_alternative<Box>(shape) ||
+           std::holds_alternative<Torus>(shape) || std::holds_alternative<Lathe>(shape) ||
+           std::holds_alternative<Sor>(shape) || std::holds_alternative<Ovus>(shape);
+}
+
 bool inside_shape(const Shape& shape, Vec3 p) {
     return std::visit(
         Overload{
-            [&](const Sphere& s) {
-                return glm::dot(p - s.center, p - s.center) <= s.radius * s.radius;
-            },
+            [&](const Sphere& s) { return glm::dot(p - s.center, p - s.center) <= s.radius * s.radius; },
             [&](const Box& b) {
                 const Vec3 low = glm::min(b.low, b.high), high = glm::max(b.low, b.high);
                 return glm::all(glm::lessThanEqual(low, p)) && glm::all(glm::lessThanEqual(p, high));
             },
             [&](const Plane& s) { return glm::dot(s.normal, p) <= s.distance; },
-            [&](const Cylinder& c) { return inside_cone({c.base, c.cap, c.radius, c.radius, c.open}, p); },
+            [&](const Cylinder& c) {
+                return inside_cone({c.base, c.cap, c.radius, c.radius, c.open}, p);
+            },
             [&](const Cone& c) { return inside_cone(c, p); },
             [&](const Torus& t) {
                 return std::hypot(std::hypot(p.x, p.z) - t.major, p.y) <= std::abs(t.minor);
@@ -431,8 +493,29 @@ bool inside_shape(const Shape& shape, Vec3 p) {
             [&](const Disc& d) { return glm::dot(d.normal, p - d.center) <= 0; },
             [](const Mesh&) { return false; },
             [](const BicubicPatch&) { return false; },
+            [&](const Isosurface& s) { return is_inside(s, p); },
+            [&](const Blob& s) { return is_inside(s, p); },
+            [&](const HeightField& s) { return is_inside(s, p); },
+            [&](const JuliaFractal& s) { return is_inside(s, p); },
+            [](const Parametric&) { return false; },
+            [&](const Quadric& s) { return is_inside(s, p); },
+            [&](const PolynomialSurface& s) { return is_inside(s, p); },
+            [&](const Superellipsoid& s) { return is_inside(s, p); },
+            [&](const Ovus& s) { return is_inside(s, p); },
+            [&](const Lathe& s) { return is_inside(s, p); },
+            [&](const Sor& s) { return is_inside(s, p); },
+            [&](const Prism& s) { return is_inside(s, p); },
+            [&](const SphereSweep& s) { return is_inside(s, p); },
+            [&](const Polygon& s) { return is_inside(s, p); },
+            [&](const Text& s) { return is_inside(s, p); },
         },
         shape);
+}
+
+bool has_endless_inside(const Shape& shape) {
+    if (const auto* quadric = std::get_if<Quadric>(&shape)) return has_endless_inside(*quadric);
+    return std::holds_alternative<Plane>(shape) || std::holds_alternative<Disc>(shape) ||
+           std::holds_alternative<HeightField>(shape);
 }
 
 } // namespace pnr

@@ -108,16 +108,14 @@ Outcome scatter_by_finish(const Bsdf& bsdf, Vec3 outgoing, glm::dvec3 flux, Vec3
 // By the object's own probabilities [LW10 Table 1]: specular with PSR, else absorbed with PA, else diffuse.
 // Survivors keep their flux, tinted by the pigment over its largest component (a specular one only by a
 // metal).
-Outcome scatter_by_roles(const Material& material, const Hit& hit, const Bsdf& bsdf, Vec3 outgoing,
+Outcome scatter_by_roles(const Material& material, const Bsdf& bsdf, Vec3 outgoing,
                          glm::dvec3 flux, Vec3 u, double xi) {
     const double psr = std::clamp(material.photons.specular_probability.value_or(0), 0.0, 1.0);
     const double pa = std::clamp(material.photons.absorption_probability.value_or(0), 0.0, 1.0);
-    const glm::dvec3 rgb(glm::max(eval_pigment(material.pigment, hit.position, hit.uv).rgb, Color(0)));
+    const glm::dvec3 rgb(bsdf.tint);
     const double most = largest(rgb);
     const glm::dvec3 tint = most > 0 ? rgb / most : glm::dvec3(1);
-    const double metal =
-        std::clamp(std::max(material.finish.metallic, material.finish.reflection.metallic), 0.0, 1.0);
-    const glm::dvec3 metal_tint = glm::dvec3(1) + metal * (tint - glm::dvec3(1));
+    const glm::dvec3 metal_tint = glm::dvec3(1) + bsdf.metal * (tint - glm::dvec3(1));
     Outcome out;
     out.absorbed = flux * (glm::dvec3(1) - psr * metal_tint - (1 - psr) * (1 - pa) * tint);
     if (xi < psr) {
@@ -168,7 +166,7 @@ struct Tracer {
         const PhotonPath path = flight.bounces == 0 ? PhotonPath::direct
                                 : flight.scattered  ? PhotonPath::indirect
                                                     : PhotonPath::caustic;
-        if (world.illumination == Illumination::caustics && path != PhotonPath::caustic) return;
+        if (world.caustics_apart && path != PhotonPath::caustic) return;
         Photon photon;
         photon.position = Vec3f(hit.position);
         photon.direction = Vec3f(flight.ray.direction);
@@ -190,7 +188,7 @@ struct Tracer {
     // POV-Ray's `reflection on` and `refraction on`, where caustics alone are wanted: an object that says one
     // of them throws caustics by that one only.
     bool caustic_allowed(const PhotonRoles& roles, Event event) const {
-        if (world.illumination != Illumination::caustics || (!roles.reflection && !roles.refraction))
+        if (!world.caustics_apart || (!roles.reflection && !roles.refraction))
             return true;
         return (event == Event::reflected && roles.reflection) ||
                (event == Event::refracted && roles.refraction);
@@ -221,6 +219,7 @@ struct Tracer {
                 return false;
         }
         if (!(largest(flight.flux) > 0)) return false;
+        if (flight.bounces == 0 && !shines_on(light, surface)) return false;
         if (plan.targeted && flight.bounces == 0 && !material.photons.target) return false;
         if (diffuse && material.photons.collect) store(*hit, bsdf, surface, flight);
         return scatter(*hit, bsdf, material, outgoing, flight, numbers);
@@ -231,7 +230,7 @@ struct Tracer {
         const Vec3 u = numbers.direction(flight.bounces);
         const double xi = numbers.event(flight.bounces);
         const bool roles = material.photons.specular_probability || material.photons.absorption_probability;
-        const Outcome out = roles ? scatter_by_roles(material, hit, bsdf, outgoing, flight.flux, u, xi)
+        const Outcome out = roles ? scatter_by_roles(material, bsdf, outgoing, flight.flux, u, xi)
                                   : scatter_by_finish(bsdf, outgoing, flight.flux, u, xi);
         if (flight.booked) chunk.balance.absorbed += out.absorbed;
         if (out.event == Event::absorbed || !(largest(out.flux) > 0)) return false;
@@ -242,7 +241,7 @@ struct Tracer {
         else
             flight.specular = true;
         // Caustics alone: light that a diffuse surface has scattered is not wanted.
-        if (flight.scattered && world.illumination == Illumination::caustics) return false;
+        if (flight.scattered && world.caustics_apart) return false;
         if (++flight.bounces > free_bounces) {
             if (numbers.rng.uniform() >= late_survival) return false;
             flight.flux /= late_survival;
@@ -260,6 +259,7 @@ PhotonMap trace_photons(const World& world, const PhotonSettings& settings, std:
     map.radius = static_cast<float>(settings.radius);
     const EmissionPlan plan = plan_emission(world, settings);
     map.emitted = plan.count;
+    map.pass = pass;
     std::vector<Chunk> chunks(
         static_cast<std::size_t>((plan.count + photons_per_chunk - 1) / photons_per_chunk));
     std::atomic<std::int64_t> done{0};

@@ -2,11 +2,12 @@
 #include "core/world.h"
 
 #include "core/geometry.h"
-#include "core/image_io.h"
 #include "core/material.h"
 #include "core/mesh_io.h"
 #include "core/mesh_repair.h"
+#include "core/pattern_assets.h"
 #include "core/probe.h"
+#include "core/shape_field.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,46 +29,11 @@ bool is_finite(const Transform& t) {
     return true;
 }
 
-template <class... F>
-struct Overload : F... {
-    using F::operator()...;
-};
-template <class... F>
-Overload(F...) -> Overload<F...>; // clang 14 does not find it by itself
-
-bool is_finite(const Shape& shape) {
-    return std::visit(
-        Overload{
-            [](const Sphere& s) { return is_finite(s.center) && std::isfinite(s.radius); },
-            [](const Box& b) { return is_finite(b.low) && is_finite(b.high); },
-            [](const Plane& p) { return is_finite(p.normal) && std::isfinite(p.distance); },
-            [](const Cylinder& c) {
-                return is_finite(c.base) && is_finite(c.cap) && std::isfinite(c.radius);
-            },
-            [](const Cone& c) {
-                return is_finite(c.base) && is_finite(c.cap) && std::isfinite(c.base_radius + c.cap_radius);
-            },
-            [](const Torus& t) { return std::isfinite(t.major + t.minor); },
-            [](const Disc& d) {
-                return is_finite(d.center) && is_finite(d.normal) && std::isfinite(d.radius) &&
-                       !std::isnan(d.hole);
-            },
-            [](const Mesh& m) {
-                return !m.data || std::all_of(m.data->positions.begin(), m.data->positions.end(),
-                                              [](Vec3f p) { return is_finite(Vec3(p)); });
-            },
-            [](const BicubicPatch& p) {
-                return std::all_of(p.points.begin(), p.points.end(), [](Vec3 q) { return is_finite(q); });
-            },
-        },
-        shape);
-}
-
 void require(bool fine, const SourceRef& where, const char* text) {
     if (!fine) throw SceneError(where, text);
 }
 
-// ---- meshes and pictures
+// ---- meshes
 // --------------------------------------------------------------------------------------
 
 // Each file is read once, each mesh worked on and smoothed once, however many objects show it.
@@ -75,8 +41,8 @@ struct Assets {
     using Work = std::tuple<const MeshData*, bool, int, int>;
     std::map<std::string, std::shared_ptr<const MeshData>> meshes;
     std::map<const MeshData*, std::shared_ptr<const MeshData>> smooth;
-    std::map<std::pair<std::string, bool>, std::shared_ptr<const Image<glm::vec4>>> images;
     std::map<Work, std::shared_ptr<const MeshData>> worked_on;
+    std::map<const void*, Shape> fields; // by what was said of them
 
     std::vector<std::string> notes;
 
@@ -96,18 +62,19 @@ struct Assets {
         return (said.smooth || smooth_already) && data->normals.empty() ? smoothed(data) : data;
     }
 
-    // In the scene's working values.
-    std::shared_ptr<const Image<glm::vec4>> image(const ImagePattern& said, double assumed_gamma) {
-        auto& entry = images[{said.file, said.as_stored}];
-        if (!entry) {
-            Image<glm::vec4> picture = read_image(said.file);
-            const double gamma = said.as_stored ? 0 : assumed_gamma; // 0: what the sRGB curve had decoded
-            for (glm::vec4& pixel : picture.pixels)
-                for (int c = 0; c < 3; ++c) pixel[c] = working_from_linear(pixel[c], gamma);
-            entry = std::make_shared<const Image<glm::vec4>>(std::move(picture));
+    // Isosurfaces and height fields made ready for rays, parametric shapes as meshes, once for all copies.
+    Shape field(const Shape& said, const void* key) {
+        const auto [entry, is_new] = fields.try_emplace(key);
+        if (!is_new) return entry->second;
+        if (const auto* parametric = std::get_if<Parametric>(&said)) {
+            Mesh mesh;
+            mesh.data = std::make_shared<const MeshData>(tessellate(*parametric));
+            mesh.smooth = true;
+            entry->second = std::move(mesh);
+        } else {
+            entry->second = prepare_field_shape(said);
         }
-        require(!entry->empty(), said.said_at, "the picture is empty");
-        return entry;
+        return entry->second;
     }
 
 private:
@@ -155,6 +122,21 @@ bool is_plain_union(const Object& object) {
     return !object.shape && object.combination == Combination::unite && !object.inverse;
 }
 
+// Tells apart what must be made ready for rays; null for all other shapes.
+const void* field_key(const Shape& shape) {
+    if (const auto* s = std::get_if<Isosurface>(&shape)) return s->data.get();
+    if (const auto* s = std::get_if<HeightField>(&shape)) return s->data.get();
+    if (const auto* s = std::get_if<Parametric>(&shape)) return s->data.get();
+    return nullptr;
+}
+
+// Who passes its surface goes in or out of something.
+bool bounds_a_solid(const Shape& shape) {
+    return !std::holds_alternative<Disc>(shape) && !std::holds_alternative<Mesh>(shape) &&
+           !std::holds_alternative<BicubicPatch>(shape) && !std::holds_alternative<Polygon>(shape) &&
+           !std::holds_alternative<Parametric>(shape);
+}
+
 const char* group_name(Combination combination) {
     switch (combination) {
     case Combination::merge:
@@ -171,14 +153,18 @@ const char* group_name(Combination combination) {
 // What a child gets from its parents where it says nothing itself.
 struct Inherited {
     const Texture* texture = nullptr;
+    const Texture* interior_texture = nullptr;
     const Interior* interior = nullptr;
     const PhotonRoles* photons = nullptr;
     const PaintWord* npr = nullptr;
     std::vector<std::uint32_t> clips; // nodes of the solids that clip it
     Bounds limits{Vec3(-infinity), Vec3(infinity)}; // bounded_by
     int object = 0;
+    int light_group = 0;
+    bool global_lights = true, hollow = false, no_radiosity = false;
     bool cutaway = false;
     bool unseen = false; // clips: they have no surface
+    bool double_illuminate = false;
     bool no_shadow = false, no_image = false, no_reflection = false;
 };
 
@@ -186,8 +172,11 @@ struct Builder {
     const Scene& scene;
     World world;
     Assets assets;
+    PatternAssets pattern_assets{};
     std::vector<GeometryItem> items; // in scene space until the offset is known
     std::vector<CsgNode> solids{};
+    std::vector<Surface> parts{}; // of shapes with textures of their own; they come behind the items' surfaces
+    std::map<const Interior*, int> interior_ids{};
 
     int number_object(const Object& object, const PaintWord* word) {
         WorldObject entry;
@@ -200,24 +189,32 @@ struct Builder {
     }
 
     int add_material(const Inherited& from) {
-        if (!from.texture && !from.interior && !from.photons) return 0;
+        if (!from.texture && !from.interior_texture && !from.interior && !from.photons) return 0;
         Material material;
-        if (from.texture) {
-            material.pigment = from.texture->pigment;
-            material.finish = from.texture->finish;
+        if (from.texture) material.texture = *from.texture;
+        if (from.interior_texture) material.interior_texture = *from.interior_texture;
+        if (from.interior) {
+            material.interior = *from.interior;
+            material.interior_id =
+                interior_ids.try_emplace(from.interior, static_cast<int>(interior_ids.size()) + 1).first->second;
         }
-        if (from.interior) material.interior = *from.interior;
+        material.double_illuminate = from.double_illuminate;
         if (from.photons) material.photons = *from.photons;
-        if (auto* picture = std::get_if<ImagePattern>(&material.pigment.pattern))
-            picture->image = assets.image(*picture, scene.assumed_gamma);
+        for (Texture* texture : {&material.texture, material.interior_texture ? &*material.interior_texture : nullptr})
+            if (texture) for_each_pattern(*texture, [&](Pattern& pattern) { prepare_pattern(pattern, pattern_assets); });
         world.materials.push_back(std::move(material));
         return static_cast<int>(world.materials.size()) - 1;
     }
 
-    void add_item(GeometryItem item, Surface surface) {
+    // `bare`: it may show another's texture.
+    void add_item(GeometryItem item, Surface surface, bool bare) {
         if (surface.no_image) item.hidden_from |= ray_bit(RayKind::camera);
         if (surface.no_reflection) item.hidden_from |= ray_bit(RayKind::specular);
         if (surface.no_shadow) item.hidden_from |= ray_bit(RayKind::shadow);
+        if (surface.no_radiosity) item.hidden_from |= ray_bit(RayKind::gather);
+        const bool clear = surface.light < 0 && lets_light_through(world.materials[static_cast<std::size_t>(surface.material)]);
+        if (surface.no_shadow || clear || bare) item.hidden_from |= ray_bit(RayKind::blocker);
+        world.tinted_shadows |= !surface.no_shadow && (clear || bare);
         items.push_back(std::move(item));
         world.surfaces.push_back(surface);
     }
@@ -226,6 +223,7 @@ struct Builder {
     Inherited inherit(const Object& object, Inherited from, bool top) {
         require(is_finite(object.transform), object.said_at, "a transform is not finite");
         if (object.texture) from.texture = &*object.texture;
+        if (object.interior_texture) from.interior_texture = &*object.interior_texture;
         if (object.interior) from.interior = &*object.interior;
         if (object.photons) from.photons = &*object.photons;
         if (object.npr) from.npr = &*object.npr;
@@ -233,7 +231,11 @@ struct Builder {
         from.no_shadow |= object.no_shadow;
         from.no_image |= object.no_image;
         from.no_reflection |= object.no_reflection;
+        from.double_illuminate |= object.double_illuminate;
         from.cutaway |= object.cutaway_textures;
+        from.hollow |= object.hollow;
+        from.no_radiosity |= object.no_radiosity;
+        if (object.light_group > 0) from.light_group = object.light_group, from.global_lights = object.global_lights;
         for (const Object& bound : object.bounds) from.limits = common(from.limits, object_bounds(bound));
         return from;
     }
@@ -311,7 +313,7 @@ struct Builder {
     }
 
     std::uint32_t add_shape(const Object& object, const Inherited& from, bool inverse) {
-        require(is_finite(*object.shape), object.said_at, "a coordinate is not finite");
+        require(has_finite_numbers(*object.shape), object.said_at, "a coordinate is not finite");
         GeometryItem item;
         item.to_world = object.transform;
         item.inverse = inverse;
@@ -326,6 +328,8 @@ struct Builder {
             flat.data = std::make_shared<const MeshData>(tessellate(*patch));
             flat.smooth = true;
             item.form = Shape(std::move(flat));
+        } else if (const void* key = field_key(*object.shape)) {
+            item.form = assets.field(*object.shape, key);
         } else {
             item.form = *object.shape;
         }
@@ -335,8 +339,42 @@ struct Builder {
         surface.no_shadow = from.no_shadow;
         surface.no_image = from.no_image;
         surface.no_reflection = from.no_reflection;
-        add_item(std::move(item), surface);
+        surface.light_group = from.light_group;
+        surface.global_lights = from.global_lights;
+        surface.hollow = from.hollow;
+        surface.no_radiosity = from.no_radiosity;
+        surface.closed = bounds_a_solid(*object.shape);
+        const Mesh* from_file = object.shape ? std::get_if<Mesh>(&*object.shape) : nullptr;
+        const bool overruled = from_file && !from_file->file.empty() && from.texture; // a file's own textures
+        if (const PartTextures* textures = part_textures(item); textures && !from.unseen && !overruled)
+            item.first_part = add_parts(*textures, from, object.transform, surface);
+        add_item(std::move(item), surface, from.cutaway && !from.texture);
         return static_cast<std::uint32_t>(items.size()) - 1;
+    }
+
+    static const PartTextures* part_textures(const GeometryItem& item) {
+        const Shape& shape = std::get<Shape>(item.form);
+        if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->data->textures.get();
+        if (const auto* blob = std::get_if<Blob>(&shape)) return blob->textures.get();
+        return nullptr;
+    }
+
+    // The number of the first among `parts`.
+    std::uint32_t add_parts(const PartTextures& textures, Inherited from, const Transform& to_scene, Surface surface) {
+        const auto first = static_cast<std::uint32_t>(parts.size());
+        for (Texture texture : textures.list) {
+            transform_texture(texture, to_scene);
+            from.texture = &texture;
+            surface.material = add_material(from);
+            parts.push_back(surface);
+        }
+        return first;
+    }
+
+    void append_parts() {
+        for (GeometryItem& item : items)
+            if (item.first_part != no_texture) item.first_part += static_cast<std::uint32_t>(items.size());
+        world.surfaces.insert(world.surfaces.end(), parts.begin(), parts.end());
     }
 
     // The emitting area of a light, with the light's position as the origin of its own space.
@@ -363,7 +401,7 @@ struct Builder {
         Surface surface;
         surface.light = index;
         surface.no_image = light.no_image;
-        add_item(std::move(item), surface);
+        add_item(std::move(item), surface, false);
     }
 
     Bounds bounded() const;
@@ -392,18 +430,32 @@ void Builder::move_to_center() {
         item.to_world = then(item.to_world, move);
         item.limits = {item.limits.low - world.offset, item.limits.high - world.offset};
     }
-    for (Material& material : world.materials)
-        material.pigment.transform = then(material.pigment.transform, move);
+    for (Material& material : world.materials) {
+        transform_texture(material.texture, move);
+        if (material.interior_texture) transform_texture(*material.interior_texture, move);
+    }
     for (WorldObject& object : world.objects) {
         object.paint.field_point -= world.offset;
         for (Seed& seed : object.paint.seeds) seed.position -= world.offset;
     }
     world.camera = scene.camera;
-    world.camera.location -= world.offset;
+    world.camera.mesh_offset = -world.offset;
+    if (!world.camera.mesh) world.camera.location -= world.offset;
+    world.atmosphere = scene.atmosphere;
+    for (Pigment& layer : world.atmosphere.sky.layers) {
+        Texture bearer;
+        std::swap(bearer.pigment, layer);
+        for_each_pattern(bearer, [&](Pattern& pattern) { prepare_pattern(pattern, pattern_assets); });
+        std::swap(bearer.pigment, layer);
+    }
+    for (Fog& fog : world.atmosphere.fogs) fog.offset -= glm::dot(world.offset, fog.up);
     for (LightSource light : scene.lights) {
         light.position -= world.offset;
         light.point_at -= world.offset;
         world.lights.push_back(make_light(light));
+        Light& made = world.lights.back();
+        made.offset = world.offset;
+        if (!light.projected_through.empty()) made.window = make_probe(light.projected_through.front());
     }
 }
 
@@ -417,9 +469,26 @@ void Builder::find_object_bounds(const std::vector<Bounds>& boxes) {
 Illumination choose_illumination(const Scene& scene, const World& world, const PhotonSettings& photons) {
     const bool emitters = std::any_of(scene.lights.begin(), scene.lights.end(),
                                       [](const LightSource& light) { return light.emitter.has_value(); });
-    if (emitters || world.has_paint || scene.radiosity || photons.global.value_or(false))
+    if (emitters || world.has_paint || (scene.radiosity && !scene.povray) || photons.global.value_or(false))
         return Illumination::photon_mapped;
+    if (scene.radiosity) return Illumination::radiosity;
     return photons.wanted ? Illumination::caustics : Illumination::raytraced;
+}
+
+// How many solids without `hollow` hold a point.
+int solids_about(const std::vector<Object>& objects, Vec3 point, bool hollow) {
+    int count = 0;
+    for (const Object& object : objects) {
+        if (hollow || object.hollow) continue;
+        if (is_plain_union(object)) {
+            count += solids_about(object.children, point, false);
+            continue;
+        }
+        const Bounds box = object_bounds(object);
+        const bool near = glm::all(glm::lessThanEqual(box.low, point)) && glm::all(glm::lessThanEqual(point, box.high));
+        if ((near || object.inverse) && is_inside(*make_probe(object), point)) ++count;
+    }
+    return count;
 }
 
 void check_lights_and_camera(const Scene& scene) {
@@ -435,21 +504,25 @@ void check_lights_and_camera(const Scene& scene) {
 
 World build_world(const Scene& scene, const Settings& settings) {
     check_lights_and_camera(scene);
-    Builder builder{scene, {}, {}, {}};
+    Builder builder{scene, {}, {}, {scene.assumed_gamma, scene.noise_generator, scene.number_of_waves}, {}};
     World& world = builder.world;
     world.objects.emplace_back();
     world.materials.emplace_back();
     for (const Object& object : scene.objects) builder.add_object(object, {}, true);
     for (std::size_t i = 0; i < scene.lights.size(); ++i)
         if (scene.lights[i].emitter) builder.add_emitter(scene.lights[i], static_cast<int>(i));
+    builder.append_parts();
     builder.move_to_center();
     builder.find_object_bounds(seen_bounds(builder.items, builder.solids));
-    world.background = scene.background;
+    if (!scene.atmosphere.fogs.empty()) world.camera_solids = solids_about(scene.objects, scene.camera.location, false);
     world.ambient_light = scene.ambient_light;
+    world.irid_wavelength = scene.irid_wavelength;
     world.has_paint =
         std::any_of(world.objects.begin(), world.objects.end(), [](const WorldObject& o) { return o.npr; });
     world.has_specular = std::any_of(world.materials.begin(), world.materials.end(), is_specular);
     world.illumination = choose_illumination(scene, world, settings.photons);
+    world.caustics_apart = world.illumination != Illumination::photon_mapped && settings.photons.wanted;
+    world.ambient_glows = scene.povray && scene.version < 3.7;
     world.notes = std::move(builder.assets.notes);
     world.geometry = make_geometry(std::move(builder.items), builder.solids);
     return std::move(world);
@@ -459,7 +532,11 @@ World build_world(const Scene& scene, const Settings& settings) {
 // -----------------------------------------------------------------------------------------------------
 
 std::optional<Hit> closest_hit(const World& world, const Ray& ray, RayKind kind) {
-    return closest_hit(*world.geometry, ray, kind);
+    std::optional<Hit> hit = closest_hit(*world.geometry, ray, kind);
+    if (!hit) return hit;
+    const Shape* shape = std::get_if<Shape>(&geometry_items(*world.geometry)[hit->leaf].form);
+    if (!shape || !has_uv(*shape)) hit->uv = Vec2(hit->position + world.offset);
+    return hit;
 }
 
 bool is_occluded(const World& world, const Ray& ray, RayKind kind) {

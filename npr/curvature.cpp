@@ -3,6 +3,7 @@
 
 #include "core/geometry.h"
 #include "core/parallel.h"
+#include "core/shape_hits.h"
 
 #include <cmath>
 #include <unordered_map>
@@ -289,6 +290,27 @@ Implicit revolved_side(Vec3 base, Vec3 cap, double base_radius, double cap_radiu
             glm::dmat3(1.0) - (1 + slope * slope) * outer(axis, axis)};
 }
 
+// Of a shape that rays alone can tell of: how the normal turns from one side of the point to the other.
+Implicit by_neighbours(const Shape& shape, Vec3 p, Vec3 normal) {
+    const Bounds box = shape_bounds(shape);
+    const double size = glm::distance(box.low, box.high);
+    const double step = 2e-3 * (std::isfinite(size) ? size : 1 + glm::length(p));
+    const Frame frame = make_frame(normal);
+    HitList hits;
+    const auto normal_at = [&](Vec3 away) {
+        const Vec3 above = p + away + 4 * step * normal;
+        if (intersect_shape(shape, {above, -normal, 0, 8 * step}, hits, 1) == 0) return normal;
+        const Vec3 n = glm::normalize(hits.front().normal);
+        return glm::dot(n, normal) > 0.5 ? n : normal; // beyond an edge
+    };
+    const Vec3 along_x = (normal_at(step * frame.x) - normal_at(-step * frame.x)) / (2 * step);
+    const Vec3 along_y = (normal_at(step * frame.y) - normal_at(-step * frame.y)) / (2 * step);
+    const double xx = glm::dot(along_x, frame.x), yy = glm::dot(along_y, frame.y),
+                 xy = 0.5 * (glm::dot(along_x, frame.y) + glm::dot(along_y, frame.x));
+    return {normal, xx * outer(frame.x, frame.x) + yy * outer(frame.y, frame.y) +
+                        xy * (outer(frame.x, frame.y) + outer(frame.y, frame.x))};
+}
+
 Implicit implicit_of(const Shape& shape, Vec3 p, Vec3 normal) {
     if (const auto* s = std::get_if<Sphere>(&shape)) return {p - s->center, glm::dmat3(1.0)};
     if (const auto* c = std::get_if<Cylinder>(&shape))
@@ -302,7 +324,10 @@ Implicit implicit_of(const Shape& shape, Vec3 p, Vec3 normal) {
         return {(rho - t->major) * out + p.y * up,
                 outer(out, out) + outer(up, up) + (rho - t->major) / rho * outer(round, round)};
     }
-    return {normal, glm::dmat3(0.0)};
+    if (std::holds_alternative<Box>(shape) || std::holds_alternative<Plane>(shape) ||
+        std::holds_alternative<Disc>(shape))
+        return {normal, glm::dmat3(0.0)};
+    return by_neighbours(shape, p, normal);
 }
 
 // The shape operator of a level set, P H P / |g|, in world space: exact under any affine map.

@@ -26,7 +26,7 @@ Vec3 light_direction(const AxisSource& source, Vec3 position) {
 Vec3 pigment_direction(const AxisSource& source, Vec3 position, Vec3 normal) {
     const Frame frame = make_frame(normal);
     const auto lightness = [&](Vec3 p) {
-        return static_cast<double>(luminance(eval_pigment(source.pigment, p, Vec2(0)).rgb));
+        return static_cast<double>(luminance(texture_color(source.texture, {p, Vec2(0), normal})));
     };
     const double x =
         lightness(position + frame.x * source.reach) - lightness(position - frame.x * source.reach);
@@ -51,7 +51,7 @@ AxisSource make_axis_source(const World& world, int object, FieldSource source, 
         made.reach = 0.005 * (std::isfinite(extent) ? std::min(extent, 2 * world.radius) : world.radius);
         for (const Surface& surface : world.surfaces) {
             if (surface.object != object) continue;
-            made.pigment = world.materials[static_cast<std::size_t>(surface.material)].pigment;
+            made.texture = world.materials[static_cast<std::size_t>(surface.material)].texture;
             break;
         }
     }

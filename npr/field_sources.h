@@ -14,7 +14,7 @@ struct AxisSource {
     Vec3 vector{0, 1, 0};
     Vec3 point{0};
     std::vector<Light> lights;
-    Pigment pigment;
+    Texture texture;
     double reach = 1e-3; // distance over which the pigment's gradient is taken, world units
     std::shared_ptr<const CurvatureField> curvature;
 };

@@ -3,6 +3,7 @@
 // builtins_string.cpp.
 #include "parser/builtins.h"
 
+#include "core/noise.h"
 #include "parser/library.h"
 
 #include <fmt/format.h>
@@ -246,13 +247,29 @@ bool is_vector_function(Keyword word) {
     case "vdot"_kw:
     case "vrotate"_kw:
     case "vaxis_rotate"_kw:
+    case "vturbulence"_kw:
         return true;
     default:
         return false;
     }
 }
 
+// vturbulence(lambda, omega, octaves, point)
+VectorValue turbulence_function(Parser& p, const Token& name) {
+    Turbulence words;
+    words.lambda = number_argument(p);
+    comma_argument(p, name);
+    words.omega = number_argument(p);
+    comma_argument(p, name);
+    words.octaves = static_cast<int>(std::clamp(number_argument(p), 1.0, 10.0));
+    comma_argument(p, name);
+    const VectorValue at = vector_argument(p);
+    const Vec3 moved = turbulence_vector(Vec3(at.v[0], at.v[1], at.v[2]), words);
+    return {{moved.x, moved.y, moved.z, 0, 0}, 3, false};
+}
+
 VectorValue call_vector_function(Parser& p, const Token& name) {
+    if (is(name, "vturbulence"_kw)) return turbulence_function(p, name);
     const VectorValue a = vector_argument(p);
     const auto word = static_cast<Keyword>(name.symbol);
     VectorValue b, result;

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <ctime>
 
 namespace pnr {
@@ -42,8 +42,8 @@ std::string vstr_function(Parser& p, const Token& name) {
     const double count = number_argument(p);
     if (count < 2 || count > 5) fail(p, first, fmt::format("vstr writes 2 to 5 components, not {}", count));
     comma_argument(p, name);
-    VectorValue value = parse_operand_expression(p, Angles::compare);
-    promote(value, 5);
+    VectorValue value =
+        parse_operand_expression(p, Angles::compare); // a number is a vector with zeros behind it
     comma_argument(p, name);
     const std::string separator = parse_string(p);
     comma_argument(p, name);
@@ -66,19 +66,47 @@ std::string concat_function(Parser& p, const Token& name) {
     return text;
 }
 
+// Characters of UTF-8 text: where each begins, and the end.
+std::vector<std::size_t> character_places(std::string_view text) {
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < text.size(); ++i)
+        if ((static_cast<unsigned char>(text[i]) & 0xC0) != 0x80) places.push_back(i);
+    places.push_back(text.size());
+    return places;
+}
+
+std::size_t character_count(std::string_view text) { return character_places(text).size() - 1; }
+
+// The code of the character at text[i], which is its first byte.
+int character_code(std::string_view text, std::size_t i) {
+    const auto byte = [&](std::size_t k) {
+        return k < text.size() ? static_cast<unsigned char>(text[k]) : 0;
+    };
+    const int first = byte(i);
+    if (first < 0xC0) return first;
+    if (first < 0xE0) return (first & 0x1F) << 6 | (byte(i + 1) & 0x3F);
+    if (first < 0xF0) return (first & 0x0F) << 12 | (byte(i + 1) & 0x3F) << 6 | (byte(i + 2) & 0x3F);
+    return (first & 0x07) << 18 | (byte(i + 1) & 0x3F) << 12 | (byte(i + 2) & 0x3F) << 6 |
+           (byte(i + 3) & 0x3F);
+}
+
 // substr(text, first, count): counted from 1.
 std::string substr_function(Parser& p, const Token& name) {
     const std::string text = parse_string(p);
+    const std::vector<std::size_t> places = character_places(text);
     comma_argument(p, name);
     const Token at_first = peek(p);
     const double first = number_argument(p);
     comma_argument(p, name);
     const double count = number_argument(p);
-    if (first < 1 || count < 0 || first - 1 + count > static_cast<double>(text.size()))
+    const std::size_t size = places.size() - 1;
+    if (first < 1 || count < 0 || first - 1 + count > static_cast<double>(size))
         fail(p, at_first,
              fmt::format("substr: characters {} to {} of a string that has {}", first, first + count - 1,
-                         text.size()));
-    return text.substr(static_cast<std::size_t>(first) - 1, static_cast<std::size_t>(count));
+                         size));
+    const std::size_t begin = static_cast<std::size_t>(first) - 1,
+                      end = begin + static_cast<std::size_t>(count);
+    return text.substr(places[begin], places[end] - places[begin]);
 }
 
 std::string chr_function(Parser& p) {
@@ -107,15 +135,21 @@ std::string change_case(std::string text, bool upper) {
     return text;
 }
 
+// The number that the text starts with, as C reads it; 0 if it starts with none.
 double value_of_text(Parser& p, const Token& at, const std::string& text) {
-    const char* begin = text.data();
-    const char* end = begin + text.size();
-    while (begin < end && (*begin == ' ' || *begin == '\t' || *begin == '+')) ++begin;
-    double value = 0;
-    const auto result = std::from_chars(begin, end, value);
-    if (result.ec != std::errc{} || !std::isfinite(value))
-        fail(p, at, fmt::format("val: `{}` is no number", text));
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (end == text.c_str()) warn(p, at, fmt::format("val: `{}` is no number; it counts as 0", text));
+    if (!std::isfinite(value)) fail(p, at, fmt::format("val: `{}` is no finite number", text));
     return value;
+}
+
+// Between the codes of the first characters that differ; 0 stands for the end.
+int difference(std::string_view a, std::string_view b) {
+    std::size_t i = 0;
+    while (i < a.size() && i < b.size() && a[i] == b[i]) ++i;
+    while (i > 0 && i < a.size() && (static_cast<unsigned char>(a[i]) & 0xC0) == 0x80) --i;
+    return (i < a.size() ? character_code(a, i) : 0) - (i < b.size() ? character_code(b, i) : 0);
 }
 
 } // namespace
@@ -125,16 +159,14 @@ double number_of_strings(Parser& p, const Token& name) {
     const std::string text = parse_string(p);
     switch (static_cast<Keyword>(name.symbol)) {
     case "strlen"_kw:
-        return static_cast<double>(text.size());
+        return static_cast<double>(character_count(text));
     case "asc"_kw:
-        return text.empty() ? 0 : static_cast<unsigned char>(text[0]);
+        return text.empty() ? 0 : character_code(text, 0);
     case "val"_kw:
         return value_of_text(p, first, text);
-    default: { // strcmp
+    default: // strcmp
         comma_argument(p, name);
-        const int order = text.compare(parse_string(p));
-        return order < 0 ? -1 : order > 0;
-    }
+        return difference(text, parse_string(p));
     }
 }
 

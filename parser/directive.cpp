@@ -276,7 +276,8 @@ void warning_directive(Parser& p, const Token& directive) {
     static constexpr std::string_view names[] = {
         "declare", "local", "undef",   "macro", "if",    "ifdef",  "ifndef", "else",    "elseif",
         "switch",  "case",  "range",   "break", "while", "for",    "end",    "include", "default",
-        "version", "debug", "warning", "error", "fopen", "fclose", "read",   "write"};
+        "version", "debug", "warning", "error", "fopen", "fclose", "read",   "write",
+        "render",  "statistics"};
     const std::string_view nearest =
         nearest_word(p.in.words.text(directive.symbol), {std::begin(names), std::end(names)});
     fail(p, directive, fmt::format("there is no directive `{}`", directive_name(p, directive)),
@@ -321,6 +322,8 @@ void dispatch(Parser& p, const Token& directive) {
     case "version"_kw:
         return version_directive(p);
     case "debug"_kw:
+    case "render"_kw: // streams that POV-Ray 3.7 has given up, too
+    case "statistics"_kw:
         return debug_directive(p);
     case "warning"_kw:
         return warning_directive(p, directive);

@@ -56,7 +56,7 @@ Target take_target(Parser& p, const Token& directive) {
              value ? fmt::format("`{}` is {}, not an array", token_text(p, name), article_name(*value))
                    : fmt::format("`{}` is not declared", p.in.words.text(name.symbol)));
     std::tie(target.array, target.element) = take_subscripts(p, name, *array);
-    while (is(peek_operator(p), '[')) { // an array in an array
+    while (is(peek_raw(p), '[')) { // an array in an array; what stands behind is not run yet
         Value& inner = target.array->elements[target.element];
         auto* deeper = std::get_if<std::shared_ptr<ArrayValue>>(&inner.data);
         if (!deeper) fail(p, peek(p), "this element is not an array");
@@ -87,6 +87,7 @@ void poison(Expander& in, Symbol symbol) {
 void declare_directive(Parser& p, const Token& directive, bool local) {
     skip_deprecated(p);
     const Token name = peek_raw(p);
+    const std::size_t frame = p.in.frames.size();
     try {
         const HoldScope hold(p);
         Target target = take_target(p, directive);
@@ -95,7 +96,7 @@ void declare_directive(Parser& p, const Token& directive, bool local) {
         Value value = stored_value(p, name, parse_value(p));
         if (!target.array) {
             if (local) warn_hidden(p, name, value);
-            assign(p, target.symbol, std::move(value), local);
+            assign_in(p, target.symbol, std::move(value), local, frame);
         } else {
             Value& element = target.array->elements[target.element];
             if (element.data.index() == 0 &&
@@ -111,7 +112,18 @@ void declare_directive(Parser& p, const Token& directive, bool local) {
 }
 
 void undef_directive(Parser& p, const Token& directive) {
-    undefine(p.in, take_name(p, directive).symbol);
+    const Token name = peek_raw(p);
+    const Value* value = name.kind == TokenKind::word ? lookup(p.in, name.symbol) : nullptr;
+    if (value && std::holds_alternative<std::shared_ptr<ArrayValue>>(value->data)) {
+        const HoldScope hold(p);
+        const Target target = take_target(p, directive);
+        if (target.array)
+            target.array->elements[target.element] = {};
+        else
+            undefine(p.in, name.symbol);
+    } else {
+        undefine(p.in, take_name(p, directive).symbol);
+    }
     accept_semicolon(p);
 }
 
@@ -140,9 +152,9 @@ void macro_directive(Parser& p, const Token& directive) {
     expect_raw(p, '(', directive);
     while (!is(peek_raw(p), ')')) {
         macro->parameters.push_back(take_new_name(p, directive).symbol);
-        if (is(peek_raw(p), ','))
+        if (is(peek_raw(p), ',')) // POV-Ray lets it be missing
             next_raw(p);
-        else if (!is(peek_raw(p), ')'))
+        else if (!is(peek_raw(p), ')') && peek_raw(p).kind != TokenKind::word)
             fail(p, peek_raw(p),
                  fmt::format("expected `,` or `)` in the macro's parameters, found {}",
                              token_text(p, peek_raw(p))));
@@ -240,7 +252,8 @@ void take_arguments(Parser& p, const Macro& macro, const Token& name, std::vecto
                 arguments.push_back({0, std::move(cell), nullptr, 0});
             }
             if (accept(p, ')')) break;
-            expect(p, ',', "or `)` between the arguments");
+            if (!accept(p, ',') && arguments.size() >= wanted) // POV-Ray lets it be missing
+                expect(p, ',', "or `)` between the arguments");
         }
     }
     if (arguments.size() != wanted)

@@ -7,6 +7,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
 namespace pnr {
 
 namespace {
@@ -40,6 +44,51 @@ std::string written(Parser& p) {
     std::string text = "<";
     for (int i = 0; i < value.size; ++i) text += fmt::format("{}{:g}", i > 0 ? "," : "", value.v[i]);
     return text + ">";
+}
+
+// `uint8 EXPR` and its kin: each number as so many bytes, rounded and held within the range.
+struct BinaryFormat {
+    int bytes = 1;
+    bool is_signed = false, big_end_first = false;
+};
+
+std::optional<BinaryFormat> binary_format(const Token& token) {
+    switch (keyword_of(token)) {
+    case "uint8"_kw:
+        return BinaryFormat{1, false, false};
+    case "sint8"_kw:
+        return BinaryFormat{1, true, false};
+    case "uint16be"_kw:
+        return BinaryFormat{2, false, true};
+    case "uint16le"_kw:
+        return BinaryFormat{2, false, false};
+    case "sint16be"_kw:
+        return BinaryFormat{2, true, true};
+    case "sint16le"_kw:
+        return BinaryFormat{2, true, false};
+    case "sint32be"_kw:
+        return BinaryFormat{4, true, true};
+    case "sint32le"_kw:
+        return BinaryFormat{4, true, false};
+    default:
+        return std::nullopt;
+    }
+}
+
+std::string written_binary(Parser& p, BinaryFormat format) {
+    next(p);
+    const VectorValue value = parse_operand_expression(p, Angles::compare);
+    const int bits = 8 * format.bytes - (format.is_signed ? 1 : 0);
+    const double most = std::ldexp(1.0, bits) - 1, least = format.is_signed ? -most - 1 : 0;
+    std::string bytes;
+    for (int i = 0; i < value.size; ++i) {
+        const auto number = static_cast<std::int64_t>(std::floor(std::clamp(value.v[i], least, most) + 0.5));
+        for (int b = 0; b < format.bytes; ++b) {
+            const int shift = 8 * (format.big_end_first ? format.bytes - 1 - b : b);
+            bytes += static_cast<char>(number >> shift & 0xFF);
+        }
+    }
+    return bytes;
 }
 
 // One value of a text file: a string, a number, or a vector; false at its end.
@@ -127,7 +176,8 @@ void write_directive(Parser& p, const Token& directive) {
     std::string text;
     while (!at(p, ')')) { // the commas may be missing, as in POV-Ray
         accept(p, ',');
-        text += written(p);
+        const auto format = binary_format(peek(p));
+        text += format ? written_binary(p, *format) : written(p);
     }
     expect(p, ')', "to close the list of what is written");
     append(p, name, p.in.written[path], text);

@@ -20,6 +20,8 @@ bool ends_expression(Keyword name) {
     case "default"_kw:
     case "version"_kw:
     case "debug"_kw:
+    case "render"_kw:
+    case "statistics"_kw:
     case "warning"_kw:
     case "error"_kw:
     case "fopen"_kw:
@@ -346,21 +348,46 @@ void bind(Parser& p, Symbol symbol, Binding binding) {
     in.symbols[symbol].bindings.push_back(std::move(binding));
 }
 
-void assign(Parser& p, Symbol symbol, Value value, bool local) {
+namespace {
+
+// A new binding of the `frame`-th frame, though deeper frames may be open: the bindings of a name lie in the order of
+// their scopes, and each frame's locals behind those of the frames below it.
+void add_binding(Expander& in, Symbol symbol, Binding binding, std::size_t frame) {
+    auto& bindings = in.symbols[symbol].bindings;
+    auto place = bindings.end();
+    while (place != bindings.begin() && (place - 1)->scope > binding.scope) --place;
+    const bool is_local = binding.scope != 0;
+    bindings.insert(place, std::move(binding));
+    if (!is_local) return;
+    if (frame == in.frames.size()) {
+        in.locals.push_back(symbol);
+        return;
+    }
+    in.locals.insert(in.locals.begin() + static_cast<std::ptrdiff_t>(in.frames[frame].first_local), symbol);
+    for (std::size_t deeper = frame; deeper < in.frames.size(); ++deeper) ++in.frames[deeper].first_local;
+}
+
+} // namespace
+
+void assign_in(Parser& p, Symbol symbol, Value value, bool local, std::size_t frame) {
     Expander& in = p.in;
     if (symbol >= in.symbols.size()) in.symbols.resize(in.words.texts.size());
     SymbolEntry& entry = in.symbols[symbol];
     entry.poisoned = false;
-    const std::uint32_t scope = local && !in.frames.empty() ? in.frames.back().scope : 0;
-    const bool in_place = !entry.bindings.empty() && (!local || entry.bindings.back().scope == scope);
-    if (in_place) {
-        value_at(entry.bindings.back()) = std::move(value);
+    const std::uint32_t here = frame == 0 ? 0 : in.frames[frame - 1].scope;
+    auto visible = entry.bindings.rbegin(); // from there
+    while (visible != entry.bindings.rend() && visible->scope > here) ++visible;
+    if (visible != entry.bindings.rend() && (!local || visible->scope == here)) {
+        value_at(*visible) = std::move(value);
         return;
     }
     auto cell = std::make_shared<Cell>();
     cell->value = std::move(value);
-    entry.bindings.push_back({scope, std::move(cell), nullptr, 0});
-    if (scope != 0) in.locals.push_back(symbol);
+    add_binding(in, symbol, {local ? here : 0, std::move(cell), nullptr, 0}, frame);
+}
+
+void assign(Parser& p, Symbol symbol, Value value, bool local) {
+    assign_in(p, symbol, std::move(value), local, p.in.frames.size());
 }
 
 void undefine(Expander& in, Symbol symbol) {

@@ -216,6 +216,8 @@ std::shared_ptr<ArrayValue> make_array(Parser& p, const Token& at, std::vector<i
 Value stored_value(Parser& p, const Token& at, Value value);
 // #declare: the visible variable, or a new global. #local: this frame's, or a new one in it.
 void assign(Parser& p, Symbol symbol, Value value, bool local); // of a stored value
+// The same, as if the `frame`-th frame were the innermost one: a macro that gives a value may still be open behind it.
+void assign_in(Parser& p, Symbol symbol, Value value, bool local, std::size_t frame);
 void bind(Parser& p, Symbol symbol, Binding binding);           // a new binding in the current scope
 void undefine(Expander& in, Symbol symbol);
 // The value of the identifier that is next, with its subscripts, all taken. Error if it has none.

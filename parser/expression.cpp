@@ -164,6 +164,7 @@ Vec2 parse_uv(Parser& p) {
 ColorFT parse_color(Parser& p) {
     const Token first = peek(p);
     VectorValue value = at_color(p) ? color_expression(p) : parse_conditional(p, Angles::bracket);
+    parse_channels(p, value); // White filter 0.9
     promote(value, 5);
     tell(p.in, value);
     const double largest = std::max({value.v[0], value.v[1], value.v[2]});

@@ -22,12 +22,17 @@ double parse_condition(Parser& p);                   // a scalar, comparisons al
 VectorValue parse_primary(Parser& p);
 VectorValue vector_literal(Parser& p);
 bool at_color(Parser& p);
+void parse_channels(Parser& p, VectorValue& color); // `filter 0.5` and the like, if they stand here: into `color`
 VectorValue color_expression(Parser& p); // `color ...`, `rgb ...`, `red 1 green 2`: five components
 
 inline VectorValue scalar(double value) { return {{value, 0, 0, 0, 0}, 1, false}; }
 inline bool is_true(double value) { return std::abs(value) > 1e-10; }   // POV-Ray's idea of truth
 double scalar_of(Parser& p, const VectorValue& value, const Token& at); // error if it is a vector
 void promote(VectorValue& value, int size);
+
+// POV-Ray's `.gray` of red, green and blue.
+inline double brightness(const double* c) { return 0.297 * c[0] + 0.589 * c[1] + 0.114 * c[2]; }
+int component_index(Keyword word); // of `.x`, `.red` ...; -1: no such component
 
 bool at_string(Parser& p);
 

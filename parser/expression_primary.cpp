@@ -6,6 +6,7 @@
 #include "parser/expression.h"
 #include "parser/function.h"
 #include "parser/quick_expression.h"
+#include "parser/spline.h"
 #include "parser/suggest.h"
 
 #include <fmt/format.h>
@@ -37,9 +38,11 @@ const Value* sample(const ArrayValue& array) {
     return nullptr;
 }
 
-// A function's name with `(` behind it, the name being in the buffer.
+// The name of a function or spline with `(` behind it, the name being in the buffer.
 bool is_call(Parser& p, const Value& value) {
-    if (!std::holds_alternative<std::shared_ptr<const Function>>(value.data)) return false;
+    if (!std::holds_alternative<std::shared_ptr<const Function>>(value.data) &&
+        !std::holds_alternative<std::shared_ptr<const Spline>>(value.data))
+        return false;
     const TokenFrame& frame = p.in.frames.back();
     return frame.position < frame.end && is(frame.tokens[frame.position], '(');
 }
@@ -59,7 +62,7 @@ const Value* shown_value(Parser& p, const Token& token) {
 VectorValue take_component(Parser& p, const VectorValue& value) {
     next(p); // the dot
     const Token name = next(p);
-    if (is(name, "gray"_kw)) return scalar(0.297 * value.v[0] + 0.589 * value.v[1] + 0.114 * value.v[2]);
+    if (is(name, "gray"_kw)) return scalar(brightness(value.v));
     const int index = component_index(keyword_of(name));
     if (index < 0)
         fail(p, name, fmt::format("expected a component behind `.`, found {}", token_text(p, name)),
@@ -106,7 +109,9 @@ VectorValue parse_word(Parser& p) {
     if (lookup(p.in, token.symbol)) {
         const Value& value = take_variable(p);
         if (const auto* function = std::get_if<std::shared_ptr<const Function>>(&value.data))
-            return scalar(call_function(p, token, std::shared_ptr<const Function>(*function)));
+            return call_function(p, token, std::shared_ptr<const Function>(*function));
+        if (const auto* spline = std::get_if<std::shared_ptr<const Spline>>(&value.data))
+            return call_spline(p, token, std::shared_ptr<const Spline>(*spline));
         return operand_from(p, value, token);
     }
     if (is_keyword(token.symbol)) {
@@ -247,11 +252,10 @@ VectorValue color_components(Parser& p, Keyword word) {
     promote(value, 5);
     VectorValue color = value;
     color.is_color = true;
-    if (!has_filter && has_transmit && !value.is_color) { // the fourth number is transmit
+    if (!has_filter && has_transmit) { // the fourth number is transmit, even a colour's filter
         color.v[3] = 0;
         color.v[4] = value.v[3];
     }
-    if (!has_filter && !has_transmit && !value.is_color) color.v[3] = color.v[4] = 0;
     if (is_srgb)
         for (int i = 0; i < 3; ++i)
             color.v[i] = to_working(srgb_to_linear(color.v[i]), p.scene.assumed_gamma);
@@ -305,12 +309,17 @@ VectorValue color_expression(Parser& p) {
         promote(color, 5);
         color.is_color = true;
     }
+    parse_channels(p, color);
+    return color;
+}
+
+void parse_channels(Parser& p, VectorValue& color) {
     for (;;) {
         const Token& channel = peek_operator(p);
-        if (channel.kind != TokenKind::word || !is_channel_word(static_cast<Keyword>(channel.symbol)))
-            return color;
+        if (channel.kind != TokenKind::word || !is_channel_word(static_cast<Keyword>(channel.symbol))) return;
         const auto word = static_cast<Keyword>(next(p).symbol);
         const int index = word == "alpha"_kw ? 3 : component_index(word);
+        promote(color, 5);
         color.v[index] = parse_float(p);
     }
 }
@@ -368,6 +377,8 @@ std::string parse_string(Parser& p) {
 
 namespace {
 
+Value value_of(Parser& p, Angles angles);
+
 void fill_array(Parser& p, ArrayValue& array, std::size_t dimension, std::size_t& element,
                 const Token& name) {
     open_block(p, "the array's values");
@@ -383,7 +394,7 @@ void fill_array(Parser& p, ArrayValue& array, std::size_t dimension, std::size_t
             if (dimension + 1 < array.dimensions.size())
                 fill_array(p, array, dimension + 1, element, name);
             else
-                array.elements[element++] = stored_value(p, name, parse_value(p));
+                array.elements[element++] = stored_value(p, name, value_of(p, Angles::bracket));
             if (!accept(p, ',')) accept(p, ';');
         }
     } catch (const ParseFailure&) {
@@ -394,20 +405,6 @@ void fill_array(Parser& p, ArrayValue& array, std::size_t dimension, std::size_t
         fail(p, name,
              fmt::format("this dimension of the array has {} elements, {} are given",
                          array.dimensions[dimension], count));
-}
-
-} // namespace
-
-namespace {
-
-// `texture {...} texture {...}` is one texture of layers; the lowest one, which is opaque, stands for all.
-void skip_layers(Parser& p, const DeclaredBlock& block_value) {
-    if (!std::holds_alternative<Texture>(block_value)) return;
-    while (is(peek_operator(p), "texture"_kw)) {
-        const Token layer = peek(p);
-        warn(p, layer, "layers of textures are not supported: only the lowest one is used");
-        parse_declared_block(p);
-    }
 }
 
 } // namespace
@@ -440,8 +437,11 @@ Value array_value(Parser& p) {
     return Value{array};
 }
 
-Value parse_value(Parser& p) {
-    if (VectorValue quick; quick_expression(p, Angles::compare, quick))
+namespace {
+
+// Between the values of an array the commas may be missing: there `<` starts the next one.
+Value value_of(Parser& p, Angles angles) {
+    if (VectorValue quick; quick_expression(p, angles, quick))
         return quick.size == 1 ? Value{quick.v[0]} : Value{quick};
     const Token token = peek(p);
     const Nesting nesting(p, token);
@@ -451,20 +451,25 @@ Value parse_value(Parser& p) {
             if (!is_numeric(*value) && !is_call(p, *value)) return take_variable(p);
         } else if (is(token, "function"_kw)) {
             return Value{parse_function(p)};
+        } else if (is(token, "spline"_kw)) {
+            next(p);
+            return Value{parse_spline(p)};
         } else if (is(token, "array"_kw)) {
             return array_value(p);
         } else if (at_string(p)) {
             return Value{parse_string(p)};
         } else if (!at_expression(p)) {
-            if (auto block_value = parse_declared_block(p)) {
-                skip_layers(p, *block_value);
+            if (auto block_value = parse_declared_block(p))
                 return Value{std::make_shared<const DeclaredBlock>(std::move(*block_value))};
-            }
         }
     }
-    VectorValue number = parse_operand_expression(p, Angles::compare);
+    VectorValue number = parse_operand_expression(p, angles);
     if (number.size == 1) return Value{number.v[0]};
     return Value{number};
 }
+
+} // namespace
+
+Value parse_value(Parser& p) { return value_of(p, Angles::compare); }
 
 } // namespace pnr

@@ -6,8 +6,10 @@
 #include "core/scalar_field.h"
 #include "core/types.h"
 #include "parser/token.h"
+#include "parser/value.h"
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -42,10 +44,16 @@ struct Instruction {
         arc,    // of the two on top
         select, // of the four on top
         select_of_three,
-        unary, // apply `function`
-        call,  // of calls[index]: its arguments are on top
+        unary,    // apply `function`, whose keyword is `index`
+        call,     // of calls[index]: its arguments are on top; a vector's component number `component`
+        internal, // of internal_functions()[index]: its arguments are on top
+        quotient, // div(a, b)
+        sum, // of calls[index], whose last argument runs from the one on top but one to the one on top; its
+        product, // other arguments are this function's own
     };
+    static constexpr std::uint8_t gray_component = 5; // the brightness of a colour
     Kind kind = Kind::constant;
+    std::uint8_t component = 0;
     std::uint32_t index = 0;
     double value = 0;
     double (*function)(double) = nullptr;
@@ -54,7 +62,10 @@ struct Instruction {
 struct Function {
     std::vector<Instruction> code;
     std::vector<std::shared_ptr<const Function>> calls;
+    // Instead of code: fills `results` numbers from `parameters` arguments. Pure, for many threads at once.
+    std::function<void(const double* arguments, double* results)> native;
     int parameters = 3;
+    int results = 1;         // 3: of a transform, 2 to 5: of a spline, 5: of a pigment
     int stack = 1;           // numbers it needs at once
     double cost = 0;         // instructions run by one call, those of called functions included
     std::string unsupported; // why it cannot be called; empty if it can
@@ -68,11 +79,16 @@ double evaluate(const Function& function, std::span<const double> arguments);
 ScalarField field_of(std::shared_ptr<const Function> function);
 
 // `function [(names)] { expression }`, the word being next. Without names they are x, y, z, and u, v mean x,
-// y. What we cannot evaluate (internal, pigment, pattern, spline, transform functions) is read and marked as
-// unsupported.
+// y. What we cannot evaluate is read and marked as unsupported.
 std::shared_ptr<const Function> parse_function(Parser& p);
+// The same behind its word (`word`), and whatever stands between.
+std::shared_ptr<const Function> parse_function_body(Parser& p, const Token& word);
 
-// Behind the function's name: `(a, b)`, evaluated. Errors at `name`.
-double call_function(Parser& p, const Token& name, const std::shared_ptr<const Function>& function);
+// function_native.cpp. Is the function's body no expression but `internal(N)`, `transform { ... }`, `spline {
+// ... }`, `pigment { ... }` or `pattern { ... }`? If so it is read into `function`.
+bool parse_native(Parser& p, Function& function);
+
+// Behind the function's name: `(a, b)`, evaluated: a number or a vector. Errors at `name`.
+VectorValue call_function(Parser& p, const Token& name, const std::shared_ptr<const Function>& function);
 
 } // namespace pnr

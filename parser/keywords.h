@@ -73,7 +73,7 @@ inline constexpr auto reserved_words = std::to_array<std::string_view>({
     "shadowless", "sin", "sine_wave", "sinh", "sint16be", "sint16le", "sint32be", "sint32le", "sint8",
     "size", "sky", "sky_sphere", "slice", "slope", "slope_map", "smooth", "smooth_triangle", "solid",
     "sor", "spacing", "specular", "sphere", "sphere_sweep", "spherical", "spiral1", "spiral2", "spline",
-    "split_union", "spotlight", "spotted", "sqr", "sqrt", "srgb", "srgbf", "srgbft", "srgbt",
+    "split_union", "spotlight", "spotted", "sqr", "sqrt", "square", "srgb", "srgbf", "srgbft", "srgbt",
     "statistics", "str", "strcmp", "strength", "strlen", "strlwr", "strupr", "sturm", "substr",
     "subsurface", "sum", "superellipsoid", "switch", "sys", "t", "tan", "tanh", "target", "text",
     "texture", "texture_list", "texture_map", "tga", "thickness", "threshold", "tiff", "tightness",
@@ -83,7 +83,7 @@ inline constexpr auto reserved_words = std::to_array<std::string_view>({
     "union", "up", "use_alpha", "use_color", "use_index", "utf8", "uv_indices", "uv_mapping",
     "uv_vectors", "v", "v_steps", "val", "variance", "vaxis_rotate", "vcross", "vdot", "version",
     "vertex_vectors", "vlength", "vnormalize", "vrotate", "vstr", "vturbulence", "warning", "warp",
-    "water_level", "waves", "while", "width", "wood", "wrinkles", "write", "x", "y", "yes", "z"
+    "water_level", "waves", "while", "width", "wood", "wrinkles", "write", "x", "xyz", "y", "yes", "z"
 });
 
 inline constexpr auto free_words = std::to_array<std::string_view>({

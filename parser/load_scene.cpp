@@ -44,19 +44,20 @@ void declare_number(Parser& p, std::string_view name, double value) {
     assign(p, p.in.words.intern(name), Value{value}, false);
 }
 
-// The variables that POV-Ray declares before the first line.
+// The variables that POV-Ray declares before the first line. Of a single picture the frames and clocks are 0.
 void declare_givens(Parser& p) {
     const LoadOptions& options = p.in.options;
+    const int steps = options.final_frame - options.initial_frame;
     declare_number(p, "frame_number", options.frame_number);
     declare_number(p, "initial_frame", options.initial_frame);
     declare_number(p, "final_frame", options.final_frame);
     declare_number(p, "initial_clock", options.initial_clock);
     declare_number(p, "final_clock", options.final_clock);
-    const int frames = options.final_frame - options.initial_frame;
     const double length = options.final_clock - options.initial_clock;
-    declare_number(p, "clock_delta", frames > 0 ? length / frames : length);
+    declare_number(p, "clock_delta", steps > 0 ? length / steps : length);
     declare_number(p, "image_width", options.width.value_or(512));
     declare_number(p, "image_height", options.height.value_or(512));
+    assign(p, p.in.words.intern("input_file_name"), Value{p.scene.file}, false);
 }
 
 // -D NAME=EXPR, each read as `#declare NAME = EXPR;` in a text of its own.

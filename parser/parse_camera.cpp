@@ -4,6 +4,7 @@
 // the frame about `sky` and keeps the lengths and the handedness; transforms come last. An orthographic
 // camera without `right` and `up`, or with `angle`, shows what a perspective one shows at the distance of
 // look_at (by default <0, 0, 1>).
+#include "core/mesh_view.h"
 #include "parser/blocks.h"
 
 #include <cmath>
@@ -16,8 +17,10 @@ struct SaidCamera {
     Camera camera;
     Vec3 sky{0, 1, 0}, look_at{0, 0, 1};
     bool looks = false, sized = false; // look_at; right or up
-    bool replaced = false;             // its type is one that we lack
-    std::optional<double> angle;
+    bool copied = false;               // a declared camera started it
+    std::optional<double> angle, v_angle;
+    Token angle_at;
+    std::optional<Vec3> focal_point;
     Transform transform;
 };
 
@@ -43,29 +46,109 @@ void apply_look_at(Camera& camera, Vec3 look_at, Vec3 sky) {
 void parse_projection(Parser& p, const Token& word, SaidCamera& said) {
     Camera& camera = said.camera;
     next(p);
-    if (is(word, "perspective"_kw))
-        camera.projection = Projection::perspective;
-    else if (is(word, "orthographic"_kw))
+    camera.mesh = nullptr;
+    switch (keyword_of(word)) {
+    case "orthographic"_kw:
         camera.projection = Projection::orthographic;
-    else {
-        said.replaced = true;
-        warn_unsupported(p, word, "camera type " + token_text(p, word, false),
-                         "a perspective camera takes its place");
-        skip_argument(p, token_text(p, word, false));
+        break;
+    case "fisheye"_kw:
+        camera.projection = Projection::fisheye;
+        break;
+    case "ultra_wide_angle"_kw:
+        camera.projection = Projection::ultra_wide_angle;
+        break;
+    case "omnimax"_kw:
+        camera.projection = Projection::omnimax;
+        break;
+    case "panoramic"_kw:
+        camera.projection = Projection::panoramic;
+        break;
+    case "spherical"_kw:
+        camera.projection = Projection::spherical;
+        break;
+    case "cylinder"_kw: {
+        constexpr Projection cylinders[] = {Projection::cylinder_1, Projection::cylinder_2,
+                                            Projection::cylinder_3, Projection::cylinder_4};
+        camera.projection = cylinders[parse_int(p, 1, 4, "the kind of a cylinder camera") - 1];
+        break;
     }
+    default:
+        camera.projection = Projection::perspective;
+    }
+}
+
+// `mesh_camera { rays kind [distance] mesh ... [smooth] }`
+void parse_mesh_camera(Parser& p, Camera& camera) {
+    std::vector<MeshViewPart> parts;
+    MeshRays rays = MeshRays::by_index;
+    bool smooth = false, numbers = false;
+    const Token opener = peek(p);
+    block(p, "mesh_camera", [&] {
+        const Token word = peek(p);
+        if (!numbers) {
+            numbers = true;
+            parse_float(p), accept_comma(p); // rays a pixel: more come with antialiasing
+            const int kind = parse_int(p, 0, 3, "the distribution of a mesh_camera");
+            rays = kind == 3 ? MeshRays::by_uv : kind == 0 ? MeshRays::by_index : MeshRays::in_a_row;
+            accept_comma(p);
+            if (at_expression(p)) parse_float(p), accept_comma(p); // how far POV-Ray looks for a face
+        } else if (accept(p, "smooth"_kw)) {
+            smooth = true;
+        } else {
+            std::optional<Object> object = parse_object(p);
+            if (!object)
+                if (const auto* declared = accept_declared<Object>(p)) object = *declared;
+            const Mesh* mesh = object && object->shape ? std::get_if<Mesh>(&*object->shape) : nullptr;
+            if (!mesh || !mesh->data) fail(p, word, "`mesh_camera` needs meshes of the scene's text");
+            parts.push_back({mesh->data, object->transform});
+        }
+    });
+    if (parts.empty()) fail(p, opener, "`mesh_camera` needs a mesh");
+    camera.projection = Projection::mesh;
+    camera.mesh = make_mesh_view(parts, rays, smooth);
 }
 
 void parse_angle(Parser& p, SaidCamera& said) {
     const Token at = peek(p);
-    const double degrees = parse_float(p);
+    said.angle = parse_float_in(p, 0, 1e6, "`angle`");
     accept_comma(p);
-    if (at_expression(p)) parse_float(p);        // the vertical angle of spherical cameras
-    if (said.replaced && degrees >= 180) return; // of a camera type that sees further around
-    if (!(degrees >= 0 && degrees < 180)) fail(p, at, "`angle` must lie between 0 and 180 degrees");
-    if (degrees == 0)
-        warn(p, at, "`angle 0` is ignored");
-    else
-        said.angle = degrees;
+    if (at_expression(p)) said.v_angle = parse_float_in(p, 0, 1e6, "`angle`");
+    said.angle_at = at;
+}
+
+void parse_blur_samples(Parser& p, Lens& lens) {
+    const int first = parse_int(p, 1, 1 << 20, "`blur_samples`");
+    accept_comma(p);
+    lens.samples_min = 0, lens.samples_max = first;
+    if (at_expression(p)) lens.samples_min = first, lens.samples_max = parse_int(p, 1, 1 << 20, "`blur_samples`");
+}
+
+bool parse_lens_word(Parser& p, SaidCamera& said) {
+    const Token word = peek(p);
+    Lens& lens = said.camera.lens;
+    switch (keyword_of(word)) {
+    case "aperture"_kw:
+        next(p), lens.aperture = parse_float_in(p, 0, 1e100, "`aperture`");
+        return true;
+    case "blur_samples"_kw:
+        next(p), parse_blur_samples(p, lens);
+        return true;
+    case "confidence"_kw:
+        next(p), lens.confidence = parse_float_in(p, 0, 0.9999999, "`confidence`");
+        return true;
+    case "variance"_kw:
+        next(p), lens.variance = parse_float_in(p, 0, 1, "`variance`");
+        return true;
+    case "focal_point"_kw:
+        next(p), said.focal_point = parse_vector(p);
+        return true;
+    case "bokeh"_kw:
+        warn_unsupported(p, next(p), "bokeh", "the lens is evenly bright");
+        skip_block(p, "bokeh");
+        return true;
+    default:
+        return false;
+    }
 }
 
 Vec3 parse_frame_vector(Parser& p, std::string_view what) {
@@ -87,8 +170,10 @@ bool parse_camera_word(Parser& p, SaidCamera& said) {
     case "panoramic"_kw:
     case "spherical"_kw:
     case "cylinder"_kw:
-    case "mesh_camera"_kw:
         parse_projection(p, word, said);
+        return true;
+    case "mesh_camera"_kw:
+        next(p), parse_mesh_camera(p, camera);
         return true;
     case "location"_kw:
         next(p), camera.location = parse_vector(p);
@@ -111,33 +196,44 @@ bool parse_camera_word(Parser& p, SaidCamera& said) {
     case "angle"_kw:
         next(p), parse_angle(p, said);
         return true;
-    case "aperture"_kw:
-        warn_unsupported(p, next(p), "focal blur", "everything is sharp");
-        parse_float(p);
-        return true;
-    case "blur_samples"_kw:
-        next(p), parse_float(p), accept_comma(p);
-        if (at_expression(p)) parse_float(p);
-        return true;
-    case "confidence"_kw:
-    case "variance"_kw:
-        next(p), parse_float(p);
-        return true;
-    case "focal_point"_kw:
-        next(p), parse_vector(p);
-        return true;
     case "normal"_kw:
         warn_unsupported(p, next(p), "normal of a camera", "rays go straight");
         skip_block(p, "normal");
         return true;
     default:
-        return accept_transform(p, said.transform);
+        return parse_lens_word(p, said) || accept_transform(p, said.transform);
+    }
+}
+
+// What `angle` means to each type. Of a straight picture it is the angle across, which sets the length of `direction`.
+void finish_angle(Parser& p, SaidCamera& said) {
+    Camera& c = said.camera;
+    const double aspect = glm::length(c.up) / glm::length(c.right);
+    switch (c.projection) {
+    case Projection::perspective:
+    case Projection::orthographic:
+        if (!said.angle) return;
+        if (*said.angle >= 180) fail(p, said.angle_at, "`angle` must lie between 0 and 180 degrees");
+        if (*said.angle == 0)
+            warn(p, said.angle_at, "`angle 0` is ignored"), said.angle.reset();
+        else
+            apply_angle(c, *said.angle);
+        return;
+    case Projection::spherical:
+        if (said.angle || !said.copied) c.h_angle = said.angle.value_or(360), c.v_angle = said.v_angle.value_or(c.h_angle / 2);
+        return;
+    case Projection::ultra_wide_angle:
+        if (said.angle || !said.copied) c.h_angle = said.angle.value_or(90);
+        c.v_angle = c.h_angle * aspect;
+        return;
+    default:
+        if (said.angle || !said.copied) c.h_angle = c.v_angle = said.angle.value_or(90);
     }
 }
 
 void finish_camera(Parser& p, const Token& at, SaidCamera& said) {
     Camera& camera = said.camera;
-    if (said.angle) apply_angle(camera, *said.angle);
+    finish_angle(p, said);
     const double distance = glm::length(said.look_at - camera.location);
     if (said.looks) {
         if (!(distance > 0)) fail(p, at, "`location` and `look_at` of a camera must differ");
@@ -148,6 +244,9 @@ void finish_camera(Parser& p, const Token& at, SaidCamera& said) {
         camera.right *= scale;
         camera.up *= scale;
     }
+    if (said.focal_point)
+        camera.lens.distance =
+            std::abs(glm::dot(*said.focal_point - camera.location, glm::normalize(camera.direction)));
     apply_transform(said.transform, camera);
 }
 
@@ -156,11 +255,10 @@ void finish_camera(Parser& p, const Token& at, SaidCamera& said) {
 Camera parse_camera(Parser& p) {
     SaidCamera said;
     const Token opener = peek(p);
-    bool copied = false;
     block(p, "camera", [&] {
         if (const auto* declared = accept_declared<Camera>(p)) {
             said.camera = *declared;
-            copied = true;
+            said.copied = true;
         } else if (parse_camera_word(p, said))
             accept_comma(p);
         else
@@ -169,7 +267,7 @@ Camera parse_camera(Parser& p) {
                         "angle"_kw, "perspective"_kw, "orthographic"_kw, "translate"_kw, "rotate"_kw,
                         "scale"_kw});
     });
-    if (copied) said.sized = true; // its size was settled where it was declared
+    if (said.copied) said.sized = true; // its size was settled where it was declared
     finish_camera(p, opener, said);
     return said.camera;
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// finish and interior: how a surface answers to light, and what fills it.
+// finish: how a surface answers to light.
 #include "parser/blocks.h"
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 
 namespace pnr {
@@ -55,21 +56,52 @@ void parse_reflection(Parser& p, Finish& finish) {
     finish.reflection.min = finish.reflection.max = parse_color(p).rgb;
 }
 
-// What an ignored finish word takes: a block, numbers, or nothing.
-void skip_finish_word(Parser& p, const Token& word) {
-    warn_unsupported(p, word, token_text(p, word, false), "the finish goes without it");
-    skip_argument(p, token_text(p, word, false));
+// `albedo` in front of a strength: it is the share of light that goes there in all, not the peak.
+struct Albedos {
+    bool diffuse = false, phong = false, specular = false;
+};
+
+// The peaks that belong to the shares that were said, once brilliance and the like are known
+// [POV-Ray 3.7 reference, "Finish"; the factors are measured].
+void resolve_albedos(const Albedos& said, Finish& f) {
+    if (said.diffuse) {
+        const double scale = (f.brilliance + 1) / 2;
+        f.diffuse *= scale, f.diffuse_back *= scale;
+    }
+    if (said.phong) f.phong *= (f.phong_size + 1) / 2;
+    if (said.specular) {
+        const double n = 1 / f.roughness;
+        f.specular *= (n + 2) / (4 * (2 - std::exp2(-n / 2)));
+    }
 }
 
-void parse_diffuse(Parser& p, Finish& finish) {
-    accept(p, "albedo"_kw);
-    finish.diffuse = parse_not_negative(p, "`diffuse`");
-    if (!accept(p, ',') && !at_number(p)) return;
-    warn_unsupported(p, peek(p), "diffuse of the back side", "both sides are alike");
-    parse_float(p);
+double parse_strength(Parser& p, std::string_view what, bool& albedo) {
+    albedo = accept(p, "albedo"_kw);
+    return parse_not_negative(p, what);
 }
 
-bool parse_finish_word(Parser& p, Finish& f) {
+void parse_diffuse(Parser& p, Finish& finish, bool& albedo) {
+    finish.diffuse = parse_strength(p, "`diffuse`", albedo);
+    if (accept(p, ',') || at_number(p)) finish.diffuse_back = parse_not_negative(p, "`diffuse` of the back");
+}
+
+Iridescence parse_irid(Parser& p, const Iridescence& start) {
+    Iridescence irid = start;
+    block(p, "irid", [&] {
+        if (accept(p, "thickness"_kw))
+            irid.thickness = parse_float(p);
+        else if (accept(p, "turbulence"_kw))
+            irid.turbulence = parse_float(p);
+        else if (at_number(p))
+            irid.amount = parse_float(p);
+        else
+            unexpected(p, "irid", {"thickness"_kw, "turbulence"_kw});
+        accept_comma(p);
+    });
+    return irid;
+}
+
+bool parse_finish_word(Parser& p, Finish& f, Albedos& albedos) {
     const Token word = peek(p);
     switch (keyword_of(word)) {
     case "ambient"_kw:
@@ -79,21 +111,19 @@ bool parse_finish_word(Parser& p, Finish& f) {
         next(p), f.emission = parse_color(p).rgb;
         return true;
     case "diffuse"_kw:
-        next(p), parse_diffuse(p, f);
+        next(p), parse_diffuse(p, f, albedos.diffuse);
         return true;
     case "brilliance"_kw:
         next(p), f.brilliance = parse_not_negative(p, "`brilliance`");
         return true;
     case "phong"_kw:
-        next(p), accept(p, "albedo"_kw);
-        f.phong = parse_not_negative(p, "`phong`");
+        next(p), f.phong = parse_strength(p, "`phong`", albedos.phong);
         return true;
     case "phong_size"_kw:
         next(p), f.phong_size = parse_not_negative(p, "`phong_size`");
         return true;
     case "specular"_kw:
-        next(p), accept(p, "albedo"_kw);
-        f.specular = parse_not_negative(p, "`specular`");
+        next(p), f.specular = parse_strength(p, "`specular`", albedos.specular);
         return true;
     case "roughness"_kw:
         next(p), f.roughness = parse_float_in(p, 1e-9, largest, "`roughness`");
@@ -111,10 +141,14 @@ bool parse_finish_word(Parser& p, Finish& f) {
         next(p), f.conserve_energy = parse_optional_bool(p);
         return true;
     case "crand"_kw:
+        next(p), f.crand = parse_not_negative(p, "`crand`");
+        return true;
     case "irid"_kw:
+        next(p), f.irid = parse_irid(p, f.irid);
+        return true;
     case "subsurface"_kw:
-    case "use_alpha"_kw:
-        skip_finish_word(p, next(p));
+        warn_unsupported(p, next(p), "subsurface", "no light is scattered below the surface");
+        skip_block(p, "subsurface");
         return true;
     case "refraction"_kw:
     case "ior"_kw:
@@ -130,68 +164,24 @@ bool parse_finish_word(Parser& p, Finish& f) {
     }
 }
 
-bool parse_interior_word(Parser& p, Interior& interior) {
-    const Token word = peek(p);
-    switch (keyword_of(word)) {
-    case "ior"_kw:
-        next(p), interior.ior = parse_float_in(p, 1e-3, 1e3, "`ior`");
-        return true;
-    case "fade_distance"_kw:
-        next(p), interior.fade_distance = parse_not_negative(p, "`fade_distance`");
-        return true;
-    case "fade_power"_kw:
-        next(p), interior.fade_power = parse_not_negative(p, "`fade_power`");
-        return true;
-    case "fade_color"_kw:
-        next(p), interior.fade_color = parse_color(p).rgb;
-        return true;
-    case "caustics"_kw:
-        next(p), parse_float(p);
-        return true; // POV-Ray's faked caustics: photons do better
-    case "dispersion"_kw:
-        warn_unsupported(p, next(p), "dispersion", "all colours are refracted alike");
-        parse_float(p);
-        return true;
-    case "dispersion_samples"_kw:
-        next(p), parse_float(p);
-        return true;
-    case "media"_kw:
-        warn_unsupported(p, next(p), "media", "the inside is clear");
-        skip_block(p, "media");
-        return true;
-    default:
-        return false;
-    }
-}
-
 } // namespace
 
 Finish parse_finish(Parser& p, const Finish& start) {
     Finish finish = start;
+    Albedos albedos;
     block(p, "finish", [&] {
         if (const auto* declared = accept_declared<Finish>(p))
             finish = *declared;
-        else if (parse_finish_word(p, finish))
+        else if (parse_finish_word(p, finish, albedos))
             accept_comma(p);
         else
             unexpected(p, "finish",
                        {"ambient"_kw, "diffuse"_kw, "emission"_kw, "brilliance"_kw, "phong"_kw,
                         "phong_size"_kw, "specular"_kw, "roughness"_kw, "metallic"_kw, "reflection"_kw,
-                        "conserve_energy"_kw});
+                        "conserve_energy"_kw, "crand"_kw, "irid"_kw});
     });
+    resolve_albedos(albedos, finish);
     return finish;
-}
-
-Interior parse_interior(Parser& p, const Interior& start) {
-    Interior interior = start;
-    block(p, "interior", [&] {
-        if (const auto* declared = accept_declared<Interior>(p))
-            interior = *declared;
-        else if (!parse_interior_word(p, interior))
-            unexpected(p, "interior",
-                       {"ior"_kw, "fade_distance"_kw, "fade_power"_kw, "fade_color"_kw, "caustics"_kw});
-    });
-    return interior;
 }
 
 } // namespace pnr

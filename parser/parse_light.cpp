@@ -61,40 +61,6 @@ Emitter parse_emitter(Parser& p) {
     return emitter;
 }
 
-// Words of POV-Ray's area lights: they shine as points here.
-bool skip_area_light(Parser& p) {
-    const Token word = peek(p);
-    switch (keyword_of(word)) {
-    case "area_light"_kw:
-        warn_unsupported(p, next(p), "area_light", "it shines from its centre, with hard shadows");
-        parse_vector(p), accept_comma(p), parse_vector(p), accept_comma(p);
-        parse_float(p), accept_comma(p), parse_float(p);
-        return true;
-    case "adaptive"_kw:
-        next(p), parse_float(p);
-        return true;
-    case "area_illumination"_kw:
-    case "media_attenuation"_kw:
-    case "media_interaction"_kw:
-        next(p), parse_optional_bool(p);
-        return true;
-    case "jitter"_kw:
-    case "circular"_kw:
-    case "orient"_kw:
-        next(p);
-        return true;
-    case "projected_through"_kw:
-        warn_unsupported(p, next(p), "projected_through", "the light shines everywhere");
-        skip_block(p, "projected_through");
-        return true;
-    case "photons"_kw:
-        next(p), skip_block(p, "photons");
-        return true; // all lights take part
-    default:
-        return false;
-    }
-}
-
 void parse_looks_like(Parser& p, LightSource& light) {
     block(p, "looks_like", [&] {
         const Token word = peek(p);
@@ -218,7 +184,7 @@ LightSource parse_light_source(Parser& p) {
             check_scale(p, word, light, transform);
             return apply_transform(transform, light);
         }
-        if (parse_light_shape(p, light) || skip_area_light(p)) return;
+        if (parse_light_shape(p, light) || parse_light_shadow(p, light)) return;
         if (accept(p, "emitter"_kw))
             light.emitter = parse_emitter(p);
         else if (accept(p, "radiance"_kw))
@@ -229,9 +195,11 @@ LightSource parse_light_source(Parser& p) {
             unexpected(p, "light_source",
                        {"spotlight"_kw, "parallel"_kw, "cylinder"_kw, "point_at"_kw, "radius"_kw,
                         "falloff"_kw, "tightness"_kw, "fade_distance"_kw, "fade_power"_kw, "shadowless"_kw,
-                        "emitter"_kw, "radiance"_kw, "power"_kw, "translate"_kw});
+                        "emitter"_kw, "radiance"_kw, "power"_kw, "area_light"_kw, "translate"_kw});
     });
     finish_emitter(p, opener, light, strength);
+    if (light.area && light.area->columns * light.area->rows == 1 && light.area->jitter == false) light.area.reset();
+    if (light.emitter && light.area) fail(p, opener, "an emitter has its own area: `area_light` does not go with it");
     if (light.parallel && light.point_at == light.position)
         fail(p, opener, "`point_at` of a parallel light must differ from its position");
     return light;
@@ -242,7 +210,9 @@ void apply_transform(const Transform& by, LightSource& light) {
     const auto vector = [&](Vec3& v) { v = transform_vector(by.matrix, v); };
     point(light.position);
     point(light.point_at);
-    for (Object& object : light.looks_like) apply_transform(by, object);
+    for (auto* objects : {&light.looks_like, &light.projected_through})
+        for (Object& object : *objects) apply_transform(by, object);
+    if (light.area) vector(light.area->u), vector(light.area->v);
     if (!light.emitter) return;
     Emitter& emitter = *light.emitter;
     vector(emitter.u), vector(emitter.v);

@@ -4,6 +4,7 @@
 #include "parser/number_list.h"
 
 #include <cstring>
+#include <map>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -35,11 +36,61 @@ struct Welder {
     }
 };
 
+// The textures of a mesh's parts. One that is only the name of a declared texture is kept once, however often
+// it stands there.
+struct TextureCollector {
+    PartTextures textures;
+    std::map<std::shared_ptr<const DeclaredBlock>, std::uint32_t> declared;
+};
+
 struct MeshBuilder {
     MeshData data;
     Welder positions, normals;
+    TextureCollector textures;
     bool smooth = false; // normals exist from the first smooth triangle on
 };
+
+// What `{ Name }` names, if just that is next.
+std::shared_ptr<const DeclaredBlock> lone_declared(const Parser& p) {
+    const TokenFrame& frame = p.in.frames.back();
+    if (p.in.buffered || frame.position + 3 > frame.end) return nullptr;
+    const StoredToken* const next = frame.tokens + frame.position;
+    const auto is_brace = [](const StoredToken& token, char c) {
+        return kind_of(token) == TokenKind::punctuation && token.name.symbol == static_cast<Symbol>(c);
+    };
+    if (!is_brace(next[0], '{') || kind_of(next[1]) != TokenKind::word || !is_brace(next[2], '}'))
+        return nullptr;
+    const Value* value = lookup(p.in, next[1].name.symbol);
+    const auto* block = value ? std::get_if<std::shared_ptr<const DeclaredBlock>>(&value->data) : nullptr;
+    return block ? *block : nullptr;
+}
+
+// Behind `texture`: its number.
+std::uint32_t parse_part_texture(Parser& p, TextureCollector& all) {
+    const Token at = peek_raw(p);
+    const auto name = lone_declared(p);
+    if (const auto known = all.declared.find(name); name && known != all.declared.end()) {
+        skip_block(p, "texture");
+        return known->second;
+    }
+    const auto number = static_cast<std::uint32_t>(all.textures.list.size());
+    all.textures.list.push_back(parse_texture(p, p.default_texture));
+    charge(p, at, sizeof(Texture));
+    if (name) all.declared.emplace(name, number);
+    return number;
+}
+
+// From here on triangles have textures; those said before have none of their own.
+void set_texture(MeshData& data, const Triple& numbers) {
+    data.texture_triangles.resize(data.triangles.size() - 1, Triple{no_texture, no_texture, no_texture});
+    data.texture_triangles.push_back(numbers);
+}
+
+void finish_textures(MeshData& data, TextureCollector&& collected) {
+    if (data.texture_triangles.empty()) return;
+    data.texture_triangles.resize(data.triangles.size(), Triple{no_texture, no_texture, no_texture});
+    data.textures = std::make_shared<const PartTextures>(std::move(collected.textures));
+}
 
 Vec3 parse_item(Parser& p) {
     const Vec3 v = parse_vector(p);
@@ -83,6 +134,7 @@ void parse_corners(Parser& p, MeshBuilder& mesh, bool smooth) {
 
 Mesh finish_mesh(Parser& p, const Token& at, MeshBuilder&& builder) {
     Mesh mesh;
+    finish_textures(builder.data, std::move(builder.textures));
     mesh.data = std::make_shared<const MeshData>(std::move(builder.data));
     mesh.said_at = source_ref(p, at);
     return mesh;
@@ -108,20 +160,43 @@ void parse_uv_corners(Parser& p, MeshBuilder& mesh) {
     data.uv_triangles.push_back(t);
 }
 
+// `texture_list { T1 T2 T3 }`: of the corners, by name or in full.
+void parse_corner_textures(Parser& p, MeshBuilder& mesh) {
+    Triple numbers{};
+    open_block(p, "texture_list");
+    for (std::uint32_t& number : numbers) {
+        const Token word = peek(p);
+        if (const auto* declared = accept_declared<Texture>(p)) {
+            number = static_cast<std::uint32_t>(mesh.textures.textures.list.size());
+            mesh.textures.textures.list.push_back(*declared);
+            charge(p, word, sizeof(Texture));
+        } else if (accept(p, "texture"_kw)) {
+            number = parse_part_texture(p, mesh.textures);
+        } else {
+            unexpected(p, "texture_list", {"texture"_kw});
+        }
+        accept_comma(p);
+    }
+    if (!close_block(p))
+        fail(p, peek(p), "a triangle's `texture_list` has three textures, one for each corner");
+    set_texture(mesh.data, numbers);
+}
+
 // A triangle's braces inside `mesh`.
 void parse_mesh_triangle(Parser& p, MeshBuilder& mesh, bool smooth) {
     bool started = false;
     block(p, smooth ? "smooth_triangle" : "triangle", [&] {
-        const Token word = peek(p);
         if (!started)
             started = true, parse_corners(p, mesh, smooth);
         else if (accept(p, "uv_vectors"_kw))
             parse_uv_corners(p, mesh);
-        else if (at(p, "texture"_kw) || at(p, "texture_list"_kw)) {
-            warn_unsupported(p, next(p), "texture of single triangles", "a mesh has one texture");
-            skip_block(p, token_text(p, word, false));
-        } else
-            unexpected(p, "triangle", {"uv_vectors"_kw, "texture"_kw});
+        else if (accept(p, "texture"_kw)) {
+            const std::uint32_t number = parse_part_texture(p, mesh.textures);
+            set_texture(mesh.data, {number, number, number});
+        } else if (accept(p, "texture_list"_kw))
+            parse_corner_textures(p, mesh);
+        else
+            unexpected(p, "triangle", {"uv_vectors"_kw, "texture"_kw, "texture_list"_kw});
     });
 }
 
@@ -145,42 +220,74 @@ std::size_t parse_count(Parser& p) {
     return static_cast<std::size_t>(count);
 }
 
-bool read_entry(NumberCursor& cursor, Vec3f& entry) {
+bool fits_float(double v) { return std::abs(v) < 3e38; }
+
+bool read_entry(NumberCursor& cursor, std::vector<Vec3f>& list) {
     double v[3];
-    if (!read_vector(cursor, 3, v)) return false;
-    entry = Vec3f(v[0], v[1], v[2]);
+    if (!read_vector(cursor, 3, v) || !fits_float(v[0]) || !fits_float(v[1]) || !fits_float(v[2]))
+        return false;
+    list.emplace_back(Vec3(v[0], v[1], v[2]));
     return true;
 }
-bool read_entry(NumberCursor& cursor, Vec2f& entry) {
+bool read_entry(NumberCursor& cursor, std::vector<Vec2f>& list) {
     double v[2];
-    if (!read_vector(cursor, 2, v)) return false;
-    entry = Vec2f(v[0], v[1]);
+    if (!read_vector(cursor, 2, v) || !fits_float(v[0]) || !fits_float(v[1])) return false;
+    list.emplace_back(Vec2(v[0], v[1]));
     return true;
 }
-bool read_entry(NumberCursor& cursor, Triple& entry) {
-    double v[3];
-    if (!read_vector(cursor, 3, v)) return false;
+
+bool to_triple(const double (&v)[3], Triple& t) {
     for (std::size_t i = 0; i < 3; ++i) {
         if (!(v[i] >= 0 && v[i] < 4294967295.0)) return false;
-        entry[i] = static_cast<std::uint32_t>(v[i]);
+        t[i] = static_cast<std::uint32_t>(v[i]);
     }
     return true;
 }
 
+bool read_entry(NumberCursor& cursor, std::vector<Triple>& list) {
+    double v[3];
+    Triple t;
+    if (!read_vector(cursor, 3, v) || !to_triple(v, t)) return false;
+    list.push_back(t);
+    return true;
+}
+
+// One texture number for the whole face, or three for its corners.
+bool take_face_textures(const double (&v)[3], std::size_t found, MeshData& data) {
+    if (found == 2) return false;
+    const double all[3] = {v[0], v[found == 3 ? 1 : 0], v[found == 3 ? 2 : 0]};
+    Triple t;
+    if (!to_triple(all, t)) return false;
+    return set_texture(data, t), true;
+}
+
+bool read_face(NumberCursor& cursor, MeshData& data) {
+    if (!read_entry(cursor, data.triangles)) return false;
+    double v[3];
+    std::size_t found = 0;
+    for (;;) {
+        skip_comma(cursor);
+        if (found == 3 || !read_number(cursor, v[found])) break;
+        ++found;
+    }
+    return found == 0 || take_face_textures(v, found, data);
+}
+
 // The whole list from its text: the count, then as many entries, and nothing else.
-template <class T>
-bool read_number_list(Parser& p, const Token& opener, std::vector<T>& list) {
+template <class T, class R>
+bool read_number_list(Parser& p, const Token& opener, std::vector<T>& list, R read) {
     const auto text = peek_number_list(p);
     if (!text) return false;
     NumberCursor cursor(*text);
     double count = 0;
     // An entry takes at least 5 bytes: no memory for a count that the text cannot hold.
-    if (!read_number(cursor, count) || count < 1 || count * 5 > static_cast<double>(text->size())) return false;
+    if (!read_number(cursor, count) || count < 1 || count * 5 > static_cast<double>(text->size()))
+        return false;
     charge(p, opener, static_cast<std::size_t>(count) * sizeof(T));
-    list.resize(static_cast<std::size_t>(count));
-    for (T& entry : list) {
+    list.reserve(static_cast<std::size_t>(count));
+    while (list.size() < static_cast<std::size_t>(count)) {
         skip_comma(cursor);
-        if (!read_entry(cursor, entry)) return false;
+        if (!read(cursor)) return false;
     }
     skip_comma(cursor);
     if (!at_list_end(cursor)) return false;
@@ -188,49 +295,67 @@ bool read_number_list(Parser& p, const Token& opener, std::vector<T>& list) {
     return true;
 }
 
-template <class T, class F>
-void parse_list(Parser& p, std::string_view what, std::vector<T>& list, F item) {
+// `read` appends an entry from a list's text, `item` one from its tokens; `clear` starts anew.
+template <class T, class C, class R, class F>
+void parse_list(Parser& p, std::string_view what, std::vector<T>& list, C clear, R read, F item) {
     const Token opener = peek(p);
     open_block(p, what);
-    if (read_number_list(p, opener, list)) {
+    clear();
+    if (read_number_list(p, opener, list, read)) {
         close_block(p);
         return;
     }
+    clear();
     const std::size_t count = parse_count(p);
     charge(p, opener, count * sizeof(T));
-    list.clear();
     list.reserve(std::min<std::size_t>(count, 1 << 16)); // the count is only said so far
     while (list.size() < count) {
         if (at(p, '}'))
             fail(p, peek(p), fmt::format("`{}` says {} entries, here are {}", what, count, list.size()));
-        list.push_back(item());
+        item();
         accept_comma(p);
     }
     if (!close_block(p)) fail(p, peek(p), fmt::format("`{}` says {} entries, here are more", what, count));
 }
 
-// <a, b, c>, then POV-Ray's texture indices, which we lack.
+template <class T, class F>
+void parse_plain_list(Parser& p, std::string_view what, std::vector<T>& list, F item) {
+    parse_list(
+        p, what, list, [&] { list.clear(); }, [&](NumberCursor& cursor) { return read_entry(cursor, list); },
+        [&] { list.push_back(item()); });
+}
+
 Triple parse_triple(Parser& p) {
     const Token at = peek(p);
     const Vec3 v = parse_vector(p);
+    const double numbers[3] = {v.x, v.y, v.z};
     Triple t{};
-    for (int i = 0; i < 3; ++i) {
-        const double rounded = std::floor(v[i]);
-        if (!(rounded >= 0 && rounded < 4294967295.0))
-            fail(p, at, fmt::format("{} is no index into a list", v[i]));
-        t[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(rounded);
-    }
+    if (!to_triple(numbers, t)) fail(p, at, "these are no indices into a list");
     return t;
 }
 
-Triple parse_face(Parser& p) {
-    const Triple t = parse_triple(p);
+// <a, b, c>, then the numbers of textures.
+// The next face's indices may be named: `F1 + A` with a vector F1.
+bool starts_vector(Parser& p) {
+    const Token& token = peek(p);
+    if (is(token, '<')) return true;
+    const Value* value = token.kind == TokenKind::word ? lookup(p.in, token.symbol) : nullptr;
+    const auto* numbers = value ? std::get_if<VectorValue>(&value->data) : nullptr;
+    return numbers && numbers->size > 1;
+}
+
+void parse_face(Parser& p, MeshData& data) {
+    const Token at = peek(p);
+    data.triangles.push_back(parse_triple(p));
     accept_comma(p);
-    while (peek(p).kind == TokenKind::number) {
-        warn_unsupported(p, peek(p), "texture_list", "a mesh has one texture");
-        parse_float(p), accept_comma(p);
+    double v[3];
+    std::size_t found = 0;
+    while (!starts_vector(p) && at_expression(p)) {
+        if (found == 3) fail(p, peek(p), "a face has one texture, or three");
+        v[found++] = parse_float(p);
+        accept_comma(p);
     }
-    return t;
+    if (found > 0 && !take_face_textures(v, found, data)) fail(p, at, "a face has one texture, or three");
 }
 
 void check_indices(Parser& p, const Token& at, std::string_view what, const std::vector<Triple>& triples,
@@ -244,37 +369,82 @@ void check_indices(Parser& p, const Token& at, std::string_view what, const std:
                                 i, what, index, size));
 }
 
-bool parse_mesh2_list(Parser& p, MeshData& data) {
+// `texture_list { count, texture { ... } ... }`
+void parse_texture_list(Parser& p, TextureCollector& all) {
+    open_block(p, "texture_list");
+    const std::size_t count = parse_count(p);
+    std::vector<Texture> list;
+    while (list.size() < count && !at(p, '}')) {
+        const Token word = peek(p);
+        if (const auto* declared = accept_declared<Texture>(p))
+            list.push_back(*declared);
+        else if (accept(p, "texture"_kw))
+            list.push_back(parse_texture(p, p.default_texture));
+        else
+            unexpected(p, "texture_list", {"texture"_kw});
+        charge(p, word, sizeof(Texture));
+        accept_comma(p);
+    }
+    if (list.size() < count || !close_block(p))
+        fail(p, peek(p),
+             fmt::format("`texture_list` says {} entries, here are {}", count,
+                         list.size() < count ? "fewer" : "more"));
+    all.textures.list = std::move(list);
+}
+
+Vec3 parse_inside_vector(Parser& p) {
+    const Token at = peek(p);
+    const Vec3 v = parse_vector(p);
+    if (v == Vec3(0)) fail(p, at, "`inside_vector` must not be zero");
+    return v;
+}
+
+bool parse_mesh2_list(Parser& p, MeshData& data, TextureCollector& textures,
+                      std::optional<Vec3>& inside_vector) {
     const Token word = peek(p);
     switch (keyword_of(word)) {
     case "vertex_vectors"_kw:
-        next(p), parse_list(p, "vertex_vectors", data.positions, [&] { return Vec3f(parse_vector(p)); });
+        next(p),
+            parse_plain_list(p, "vertex_vectors", data.positions, [&] { return Vec3f(parse_vector(p)); });
         return true;
     case "normal_vectors"_kw:
-        next(p), parse_list(p, "normal_vectors", data.normals, [&] { return Vec3f(parse_vector(p)); });
+        next(p), parse_plain_list(p, "normal_vectors", data.normals, [&] { return Vec3f(parse_vector(p)); });
         return true;
     case "uv_vectors"_kw:
-        next(p), parse_list(p, "uv_vectors", data.uvs, [&] { return Vec2f(parse_uv(p)); });
+        next(p), parse_plain_list(p, "uv_vectors", data.uvs, [&] { return Vec2f(parse_uv(p)); });
         return true;
     case "face_indices"_kw:
-        next(p), parse_list(p, "face_indices", data.triangles, [&] { return parse_face(p); });
+        next(p),
+            parse_list(
+                p, "face_indices", data.triangles,
+                [&] { data.triangles.clear(), data.texture_triangles.clear(); },
+                [&](NumberCursor& cursor) { return read_face(cursor, data); }, [&] { parse_face(p, data); });
         return true;
     case "normal_indices"_kw:
-        next(p), parse_list(p, "normal_indices", data.normal_triangles, [&] { return parse_triple(p); });
+        next(p),
+            parse_plain_list(p, "normal_indices", data.normal_triangles, [&] { return parse_triple(p); });
         return true;
     case "uv_indices"_kw:
-        next(p), parse_list(p, "uv_indices", data.uv_triangles, [&] { return parse_triple(p); });
+        next(p), parse_plain_list(p, "uv_indices", data.uv_triangles, [&] { return parse_triple(p); });
         return true;
     case "texture_list"_kw:
-        warn_unsupported(p, next(p), "texture_list", "a mesh has one texture");
-        skip_block(p, "texture_list");
+        next(p), parse_texture_list(p, textures);
         return true;
     case "inside_vector"_kw:
-        next(p), parse_vector(p);
+        next(p), inside_vector = parse_inside_vector(p);
         return true;
     default:
         return false;
     }
+}
+
+void check_textures(Parser& p, const Token& at, const MeshData& data, std::size_t size) {
+    for (const Triple& t : data.texture_triangles)
+        for (const std::uint32_t number : t)
+            if (number != no_texture && number >= size)
+                fail(p, at,
+                     fmt::format("a face names texture {}, but `texture_list` has {} (they count from 0)",
+                                 number, size));
 }
 
 // Fills the index lists that POV-Ray lets an author leave out, and checks all.
@@ -309,13 +479,14 @@ Shape parse_mesh(Parser& p) {
     const Token start = peek(p);
     if (accept(p, "file"_kw)) return parse_mesh_file(p);
     MeshBuilder builder;
+    std::optional<Vec3> inside_vector;
     for (;;) {
         if (accept(p, "triangle"_kw))
             parse_mesh_triangle(p, builder, false);
         else if (accept(p, "smooth_triangle"_kw))
             parse_mesh_triangle(p, builder, true);
         else if (accept(p, "inside_vector"_kw))
-            parse_vector(p);
+            inside_vector = parse_inside_vector(p);
         else
             break;
     }
@@ -323,15 +494,20 @@ Shape parse_mesh(Parser& p) {
         unexpected(p, "mesh", {"triangle"_kw, "smooth_triangle"_kw, "file"_kw});
     if (!builder.data.uv_triangles.empty())
         builder.data.uv_triangles.resize(builder.data.triangles.size(), Triple{0, 0, 0});
-    return finish_mesh(p, start, std::move(builder));
+    Mesh mesh = finish_mesh(p, start, std::move(builder));
+    mesh.inside_vector = inside_vector;
+    return mesh;
 }
 
 Shape parse_mesh2(Parser& p) {
     const Token start = peek(p);
     MeshData data;
-    while (parse_mesh2_list(p, data)) accept_comma(p);
-    complete_mesh2(p, start, data);
+    TextureCollector textures;
     Mesh mesh;
+    while (parse_mesh2_list(p, data, textures, mesh.inside_vector)) accept_comma(p);
+    complete_mesh2(p, start, data);
+    check_textures(p, start, data, textures.textures.list.size());
+    finish_textures(data, std::move(textures));
     mesh.data = std::make_shared<const MeshData>(std::move(data));
     mesh.said_at = source_ref(p, start);
     return mesh;
@@ -357,6 +533,10 @@ Shape parse_bicubic_patch(Parser& p) {
             break;
         case "accuracy"_kw:
             next(p), parse_float(p);
+            break;
+        case "uv_vectors"_kw:
+            next(p);
+            for (Vec2& uv : patch.corner_uv) uv = parse_uv(p), accept_comma(p);
             break;
         default:
             for (Vec3& point : patch.points) point = parse_item(p);

@@ -39,6 +39,42 @@ ShapeParser find_shape_parser(const Token& word) {
         return parse_mesh2;
     case "bicubic_patch"_kw:
         return parse_bicubic_patch;
+    case "isosurface"_kw:
+        return parse_isosurface;
+    case "blob"_kw:
+        return parse_blob;
+    case "height_field"_kw:
+        return parse_height_field;
+    case "julia_fractal"_kw:
+        return parse_julia_fractal;
+    case "parametric"_kw:
+        return parse_parametric;
+    case "quadric"_kw:
+        return parse_quadric;
+    case "cubic"_kw:
+        return parse_cubic;
+    case "quartic"_kw:
+        return parse_quartic;
+    case "poly"_kw:
+        return parse_poly;
+    case "polynomial"_kw:
+        return parse_polynomial;
+    case "superellipsoid"_kw:
+        return parse_superellipsoid;
+    case "ovus"_kw:
+        return parse_ovus;
+    case "lathe"_kw:
+        return parse_lathe;
+    case "sor"_kw:
+        return parse_sor;
+    case "prism"_kw:
+        return parse_prism;
+    case "sphere_sweep"_kw:
+        return parse_sphere_sweep;
+    case "polygon"_kw:
+        return parse_polygon;
+    case "text"_kw:
+        return parse_text;
     default:
         return nullptr;
     }
@@ -57,53 +93,23 @@ bool is_group(const Token& word) {
     }
 }
 
-// Objects of POV-Ray's that we know and lack.
-bool is_unsupported_object(const Token& word) {
-    switch (keyword_of(word)) {
-    case "blob"_kw:
-    case "cubic"_kw:
-    case "height_field"_kw:
-    case "isosurface"_kw:
-    case "julia_fractal"_kw:
-    case "lathe"_kw:
-    case "ovus"_kw:
-    case "parametric"_kw:
-    case "poly"_kw:
-    case "polygon"_kw:
-    case "polynomial"_kw:
-    case "prism"_kw:
-    case "quadric"_kw:
-    case "quartic"_kw:
-    case "sor"_kw:
-    case "sphere_sweep"_kw:
-    case "superellipsoid"_kw:
-    case "text"_kw:
-        return true;
-    default:
-        return false;
-    }
-}
-
 // ---- modifiers
 // --------------------------------------------------------------------------------------------------
 
-Texture& own_texture(Parser& p, Object& object) {
+// What `pigment`, `normal` and `finish` of an object change.
+TextureLayer& own_layer(Parser& p, Object& object) {
     if (!object.texture) object.texture = p.default_texture;
-    return *object.texture;
+    return top_layer(*object.texture);
 }
 
-bool is_see_through(const Pigment& pigment) {
-    return std::ranges::any_of(
-        pigment.map, [](const ColorStop& stop) { return stop.color.filter + stop.color.transmit > 0; });
-}
-
-// A second texture lies on the first, as a layer: where it is opaque, it alone is seen.
-void add_texture(Parser& p, const Token& word, Object& object, bool layered) {
+// A second texture lies on the first, as a layer.
+void add_texture(Parser& p, Object& object) {
     const Texture texture = parse_texture(p, p.default_texture);
-    if (layered && is_see_through(texture.pigment))
-        warn_unsupported(p, word, "layered textures", "the lowest layer is drawn alone");
+    if (object.texture)
+        add_layer(p, *object.texture, texture, true);
     else
         object.texture = texture;
+    if (object.uv_mapping) map_by_uv(*object.texture);
 }
 
 void add_material(Parser& p, Object& object) {
@@ -113,25 +119,26 @@ void add_material(Parser& p, Object& object) {
     else
         material = parse_material(p);
     if (material.texture) object.texture = material.texture;
+    if (material.interior_texture) object.interior_texture = material.interior_texture;
     if (material.interior) object.interior = material.interior;
 }
 
 bool parse_texture_modifier(Parser& p, Object& object) {
-    const Token word = peek(p);
-    switch (keyword_of(word)) {
+    switch (keyword_of(peek(p))) {
     case "texture"_kw:
-        next(p), add_texture(p, word, object, object.texture.has_value());
+        next(p), add_texture(p, object);
         return true;
     case "pigment"_kw: {
         next(p);
-        Texture& texture = own_texture(p, object);
-        texture.pigment = parse_pigment(p, texture.pigment);
+        TextureLayer& layer = own_layer(p, object);
+        layer.pigment = parse_pigment(p, layer.pigment);
+        if (object.uv_mapping) map_by_uv(*object.texture);
         return true;
     }
     case "finish"_kw: {
         next(p);
-        Texture& texture = own_texture(p, object);
-        texture.finish = parse_finish(p, texture.finish);
+        TextureLayer& layer = own_layer(p, object);
+        layer.finish = parse_finish(p, layer.finish);
         return true;
     }
     case "interior"_kw:
@@ -140,16 +147,18 @@ bool parse_texture_modifier(Parser& p, Object& object) {
     case "material"_kw:
         next(p), add_material(p, object);
         return true;
-    case "normal"_kw:
-        warn_unsupported(p, next(p), "normal", "surfaces are left smooth");
-        skip_block(p, "normal");
+    case "normal"_kw: {
+        next(p);
+        TextureLayer& layer = own_layer(p, object);
+        layer.normal = parse_normal(p, layer.normal.value_or(Normal{}));
+        if (object.uv_mapping) map_by_uv(*object.texture);
         return true;
+    }
     case "interior_texture"_kw:
-        warn_unsupported(p, next(p), "interior_texture", "both sides are alike");
-        skip_block(p, "interior_texture");
+        next(p), object.interior_texture = parse_texture(p, p.default_texture);
         return true;
     case "uv_mapping"_kw:
-        next(p), parse_optional_bool(p);
+        next(p), object.uv_mapping = parse_optional_bool(p);
         return true;
     default:
         return false;
@@ -208,9 +217,11 @@ bool parse_flag(Parser& p, Object& object) {
         next(p), object.inverse = !object.inverse;
         return true;
     case "no_radiosity"_kw:
-        next(p), parse_optional_bool(p);
+        next(p), object.no_radiosity = parse_optional_bool(p);
         return true;
-    case "double_illuminate"_kw: // both sides are lit always
+    case "double_illuminate"_kw:
+        next(p), object.double_illuminate = parse_optional_bool(p);
+        return true;
     case "split_union"_kw:
     case "sturm"_kw:
     case "hierarchy"_kw:
@@ -230,6 +241,13 @@ bool parse_flag(Parser& p, Object& object) {
             return next(p), cylinder->open = true;
         if (Cone* cone = object.shape ? std::get_if<Cone>(&*object.shape) : nullptr)
             return next(p), cone->open = true;
+        if (Prism* prism = object.shape ? std::get_if<Prism>(&*object.shape) : nullptr)
+            return next(p), prism->open = true;
+        if (Sor* sor = object.shape ? std::get_if<Sor>(&*object.shape) : nullptr)
+            return next(p), sor->open = true;
+        return false;
+    case "tolerance"_kw: // hits are as exact as numbers are
+        if (object.shape && std::holds_alternative<SphereSweep>(*object.shape)) return next(p), parse_float(p), true;
         return false;
     case "smooth"_kw:
         if (Mesh* mesh = mesh_from_file(object)) return next(p), mesh->smooth = parse_optional_bool(p), true;
@@ -365,15 +383,17 @@ Object parse_group(Parser& p, const Token& word) {
     Object group;
     const std::string what = token_text(p, word, false);
     group.combination = combination_of(word);
-    if (is(word, "light_group"_kw)) warn_unsupported(p, word, what, "its lights shine on everything");
     block(p, what, [&] {
         if (parse_group_child(p, group) || parse_object_modifier(p, group)) return;
         if (is(word, "light_group"_kw) && accept(p, "global_lights"_kw))
-            parse_bool(p);
+            group.global_lights = parse_bool(p);
         else
             unexpected_in_object(p, what);
     });
     check_group(p, word, group);
+    if (!is(word, "light_group"_kw)) return group;
+    group.light_group = ++p.light_groups;
+    for (LightSource& light : group.lights) light.group = group.light_group;
     return group;
 }
 
@@ -388,10 +408,7 @@ std::optional<Object> parse_object(Parser& p) {
         object = parse_group(p, next(p));
     else if (accept(p, "object"_kw))
         object = parse_object_reference(p);
-    else if (is_unsupported_object(word)) {
-        warn_unsupported(p, next(p), token_text(p, word, false), "such objects are left out");
-        skip_block(p, token_text(p, word, false));
-    } else
+    else
         return std::nullopt;
     object.said_at = source_ref(p, word);
     charge(p, word, sizeof(Object));

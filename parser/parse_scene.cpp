@@ -25,8 +25,10 @@ void start_povray(Parser& p) {
     p.settings.render.max_trace_level = 5;
 }
 
-bool is_black(const Pigment& pigment) {
-    return std::holds_alternative<UniformPattern>(pigment.pattern) &&
+bool is_black(const Texture& texture) {
+    if (!is_plain(texture) || !texture.upper.empty()) return false;
+    const Pigment& pigment = texture.pigment;
+    return std::holds_alternative<UniformPattern>(pigment.pattern.kind) &&
            pnr::is_black(pigment.map.front().color.rgb) &&
            pigment.map.front().color.filter + pigment.map.front().color.transmit == 0;
 }
@@ -40,7 +42,7 @@ bool has_texture(const Object& object) {
 bool give_default_texture(const Texture& texture, Object& object) {
     if (object.texture || (object.cutaway_textures && has_texture(object))) return false;
     if (object.shape) object.texture = texture;
-    bool black = object.shape && is_black(texture.pigment);
+    bool black = object.shape && is_black(texture);
     for (Object& child : object.children) black |= give_default_texture(texture, child);
     return black;
 }
@@ -71,10 +73,6 @@ void add_light(Parser& p, const Token& word, LightSource light) {
     for (const Object& object : looks_like) add_object(p, word, object);
 }
 
-void parse_background(Parser& p) {
-    block(p, "background", [&] { p.scene.background = parse_color(p).rgb; });
-}
-
 void parse_camera_item(Parser& p) {
     const Untold untold(p.in);
     p.scene.camera = parse_camera(p);
@@ -83,9 +81,6 @@ void parse_camera_item(Parser& p) {
 
 bool is_unsupported_item(const Token& word) {
     switch (keyword_of(word)) {
-    case "sky_sphere"_kw:
-    case "fog"_kw:
-    case "rainbow"_kw:
     case "media"_kw:
         return true;
     default:
@@ -93,12 +88,27 @@ bool is_unsupported_item(const Token& word) {
     }
 }
 
+bool parse_atmosphere_item(Parser& p) {
+    Atmosphere& air = p.scene.atmosphere;
+    if (accept(p, "background"_kw))
+        air.background = parse_background(p);
+    else if (accept(p, "sky_sphere"_kw))
+        air.sky = parse_sky_sphere(p);
+    else if (accept(p, "fog"_kw))
+        air.fogs.push_back(parse_fog(p));
+    else if (accept(p, "rainbow"_kw))
+        air.rainbows.push_back(parse_rainbow(p));
+    else
+        return false;
+    return true;
+}
+
 void parse_scene_item(Parser& p) {
     const Token word = peek(p);
     if (auto object = parse_object(p)) return add_object(p, word, std::move(*object));
     if (accept(p, "light_source"_kw)) return add_light(p, word, parse_light_source(p));
     if (accept(p, "camera"_kw)) return parse_camera_item(p);
-    if (accept(p, "background"_kw)) return parse_background(p);
+    if (parse_atmosphere_item(p)) return;
     if (accept(p, "global_settings"_kw)) return parse_global_settings(p);
     if (accept(p, "default"_kw)) { // POV-Ray takes #default without its mark as well
         open_block(p, "default");
@@ -126,7 +136,7 @@ void check_whole_scene(Parser& p) {
         warn(p, end, "the scene has no light", "add one: light_source { <5, 10, -10>, rgb 1 }");
 }
 
-// `texture {...} texture {...}`: layers, of which the lowest is kept unless one above hides it.
+// `texture {...} texture {...}`: layers.
 // peek_operator: the declaration must end before a directive behind it runs.
 Texture parse_layers(Parser& p) {
     Object bearer;
@@ -147,6 +157,7 @@ void parse_scene(Parser& p) {
         }
     }
     resolve_paint(p);
+    p.scene.version = p.in.version;
     check_whole_scene(p);
     warn_unused(p);
 }
@@ -159,10 +170,10 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
         return parse_layers(p);
     case "pigment"_kw:
         next(p);
-        return parse_pigment(p, p.default_texture.pigment);
+        return parse_pigment(p, top_layer(p.default_texture).pigment);
     case "finish"_kw:
         next(p);
-        return parse_finish(p, p.default_texture.finish);
+        return parse_finish(p, top_layer(p.default_texture).finish);
     case "interior"_kw:
         next(p);
         return parse_interior(p, Interior{});
@@ -172,6 +183,21 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
     case "color_map"_kw:
         next(p);
         return parse_color_map(p);
+    case "normal"_kw:
+        next(p);
+        return parse_normal(p, top_layer(p.default_texture).normal.value_or(Normal{}));
+    case "normal_map"_kw:
+        next(p);
+        return parse_normal_map(p);
+    case "slope_map"_kw:
+        next(p);
+        return parse_slope_map(p);
+    case "texture_map"_kw:
+        next(p);
+        return parse_texture_map(p);
+    case "pigment_map"_kw:
+        next(p);
+        return parse_pigment_map(p);
     case "light_source"_kw:
         next(p);
         return parse_light_source(p);
@@ -180,6 +206,15 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
         const Untold untold(p.in);
         return parse_camera(p);
     }
+    case "sky_sphere"_kw:
+        next(p);
+        return parse_sky_sphere(p);
+    case "fog"_kw:
+        next(p);
+        return parse_fog(p);
+    case "rainbow"_kw:
+        next(p);
+        return parse_rainbow(p);
     case "transform"_kw:
         next(p);
         return parse_transform(p);
@@ -193,16 +228,8 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
         break;
     }
     switch (keyword_of(word)) {
-    case "normal"_kw:
     case "media"_kw:
     case "density"_kw:
-    case "fog"_kw:
-    case "rainbow"_kw:
-    case "sky_sphere"_kw:
-    case "pigment_map"_kw:
-    case "texture_map"_kw:
-    case "normal_map"_kw:
-    case "slope_map"_kw:
     case "density_map"_kw:
     case "warp"_kw:
         warn_unsupported(p, next(p), token_text(p, word, false), "it is left out");
@@ -215,22 +242,21 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
 
 void parse_default_block(Parser& p) {
     while (!at(p, '}') && !at_end(p)) {
-        const Token word = peek(p);
         Texture& texture = p.default_texture;
+        TextureLayer& layer = top_layer(texture);
         if (accept(p, "texture"_kw))
             texture = parse_texture(p, texture);
         else if (accept(p, "pigment"_kw))
-            texture.pigment = parse_pigment(p, texture.pigment);
+            layer.pigment = parse_pigment(p, layer.pigment);
         else if (accept(p, "finish"_kw))
-            texture.finish = parse_finish(p, texture.finish);
+            layer.finish = parse_finish(p, layer.finish);
         else if (accept(p, "npr"_kw))
             parse_npr(p, p.paint_defaults);
         else if (accept(p, "camera"_kw))
             skip_block(p, "camera");
-        else if (accept(p, "normal"_kw)) {
-            warn_unsupported(p, word, "normal", "surfaces are left smooth");
-            skip_block(p, "normal");
-        } else if (accept(p, "radiosity"_kw))
+        else if (accept(p, "normal"_kw))
+            layer.normal = parse_normal(p, layer.normal.value_or(Normal{}));
+        else if (accept(p, "radiosity"_kw))
             skip_block(p, "radiosity");
         else
             unexpected(p, "#default", {"texture"_kw, "pigment"_kw, "finish"_kw, "npr"_kw});

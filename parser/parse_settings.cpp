@@ -84,6 +84,7 @@ void parse_assumed_gamma(Parser& p) {
         p.scene.assumed_gamma = 0;
     else
         p.scene.assumed_gamma = parse_float_in(p, 1e-3, 1e3, "`assumed_gamma`");
+    p.settings.render.grid.value_gamma = p.scene.assumed_gamma;
 }
 
 void parse_view(Parser& p) {
@@ -112,13 +113,8 @@ bool skip_setting(Parser& p) {
     case "charset"_kw:
         next(p), next(p);
         return true;
-    case "irid_wavelength"_kw:
-        next(p), parse_color(p);
-        return true;
     case "max_intersections"_kw:
     case "mm_per_unit"_kw:
-    case "noise_generator"_kw:
-    case "number_of_waves"_kw:
         next(p), parse_float(p);
         return true;
     case "subsurface"_kw:
@@ -143,8 +139,17 @@ void parse_setting(Parser& p) {
     case "adc_bailout"_kw:
         next(p), render.adc_bailout = parse_float_in(p, 0, 1, "`adc_bailout`");
         return;
+    case "irid_wavelength"_kw:
+        next(p), p.scene.irid_wavelength = parse_color(p).rgb;
+        return;
     case "ambient_light"_kw:
         next(p), p.scene.ambient_light = parse_color(p).rgb;
+        return;
+    case "noise_generator"_kw:
+        next(p), p.scene.noise_generator = parse_int(p, 1, 3, "`noise_generator`");
+        return;
+    case "number_of_waves"_kw:
+        next(p), p.scene.number_of_waves = parse_int(p, 1, 64, "`number_of_waves`");
         return;
     case "photons"_kw:
         next(p), parse_photons(p);
@@ -155,9 +160,8 @@ void parse_setting(Parser& p) {
     case "view"_kw:
         next(p), parse_view(p);
         return;
-    case "radiosity"_kw: // its numbers tune POV-Ray's method; ours needs none of them
-        next(p), skip_block(p, "radiosity");
-        p.scene.radiosity = true;
+    case "radiosity"_kw:
+        next(p), parse_radiosity(p);
         return;
     default:
         break;

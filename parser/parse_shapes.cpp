@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The analytic shapes: their own items, up to the first modifier. Invalid sizes are errors where nothing
-// would be left.
+// The analytic shapes: their own items, up to the first modifier. Directions without a
+// length are errors, sizes of zero warnings.
 #include "parser/blocks.h"
 
 #include <cmath>
@@ -9,11 +9,16 @@ namespace pnr {
 
 namespace {
 
+// POV-Ray takes what has no size, and shows nothing of it: a scene that grows things from nothing is right.
+void warn_empty(Parser& p, const Token& at, std::string_view what) {
+    warn(p, at, std::string(what) + " has no size: nothing is seen of it");
+}
+
 double parse_radius(Parser& p, std::string_view what) {
     const Token at = peek(p);
     const double radius = parse_float(p);
-    if (!(std::isfinite(radius) && radius != 0))
-        fail(p, at, std::string(what) + " has no size: its radius is " + (radius == 0 ? "0" : "not finite"));
+    if (!std::isfinite(radius)) fail(p, at, "the radius of " + std::string(what) + " is not finite");
+    if (radius == 0) warn_empty(p, at, what);
     return std::abs(radius); // POV-Ray takes negative radii by their size
 }
 
@@ -71,7 +76,7 @@ Shape parse_cone(Parser& p) {
     cone.cap = parse_item(p);
     cone.cap_radius = std::abs(parse_float(p));
     if (cone.base == cone.cap) fail(p, at, "the two ends of a cone must differ");
-    if (cone.base_radius == 0 && cone.cap_radius == 0) fail(p, at, "one end of a cone needs a radius");
+    if (cone.base_radius == 0 && cone.cap_radius == 0) warn_empty(p, at, "this cone");
     if (cone.base_radius == cone.cap_radius) return Cylinder{cone.base, cone.cap, cone.base_radius, false};
     return cone;
 }
@@ -97,7 +102,8 @@ Shape parse_disc(Parser& p) {
     if (at_expression(p)) {
         const Token hole = peek(p);
         disc.hole = std::abs(parse_float(p));
-        if (disc.hole >= disc.radius) fail(p, hole, "the hole of a disc must be smaller than the disc");
+        if (disc.hole >= disc.radius)
+            warn(p, hole, "the hole is as large as the disc: nothing is seen of it");
     }
     return disc;
 }

@@ -77,12 +77,9 @@ bool accept_transform(Parser& p, Transform& transform) {
     return true;
 }
 
-void apply_transform(const Transform& by, Pigment& pigment) {
-    if (!std::holds_alternative<UniformPattern>(pigment.pattern))
-        pigment.transform = then(pigment.transform, by);
-}
+void apply_transform(const Transform& by, Pigment& pigment) { transform_pigment(pigment, by); }
 
-void apply_transform(const Transform& by, Texture& texture) { apply_transform(by, texture.pigment); }
+void apply_transform(const Transform& by, Texture& texture) { transform_texture(texture, by); }
 
 void apply_transform(const Transform& by, PaintWord& word) {
     for (Seed& seed : word.style.seeds) {
@@ -97,6 +94,7 @@ void apply_transform(const Transform& by, PaintWord& word) {
 void apply_transform(const Transform& by, Object& object) {
     object.transform = then(object.transform, by);
     if (object.texture) apply_transform(by, *object.texture);
+    if (object.interior_texture) apply_transform(by, *object.interior_texture);
     if (object.npr) apply_transform(by, *object.npr);
     for (auto* parts : {&object.children, &object.clips, &object.bounds})
         for (Object& part : *parts) apply_transform(by, part);

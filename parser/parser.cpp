@@ -17,7 +17,7 @@ std::string token_text(Parser& p, const Token& token, bool quoted) {
                                                                   : "the end of the expression or file";
     const std::string& text = p.in.sources.files[token.span.source].text;
     constexpr std::size_t longest = 40;
-    std::string shown = text.substr(token.span.begin, token.span.end - token.span.begin);
+    std::string shown = text.substr(token.span.begin, std::min<std::size_t>(token.span.end - token.span.begin, longest + 1));
     if (shown.size() > longest) shown = shown.substr(0, longest) + "...";
     for (char& c : shown)
         if (static_cast<unsigned char>(c) < 0x20) c = ' ';
@@ -329,12 +329,15 @@ const char* type_name(const Value& value) {
         return "function";
     case 8:
         return "open file";
+    case 9:
+        return "spline";
     default:
         break;
     }
     static constexpr const char* blocks[] = {
         "object", "texture",   "pigment",   "finish",     "interior", "light source",
-        "camera", "transform", "npr block", "colour map", "material", "block without meaning here"};
+        "camera", "transform", "npr block", "colour map", "pigment map", "normal", "slope map",
+        "normal map", "texture map", "material", "sky sphere", "fog", "rainbow", "block without meaning here"};
     static_assert(std::size(blocks) == std::variant_size_v<DeclaredBlock>);
     return blocks[std::get<std::shared_ptr<const DeclaredBlock>>(value.data)->index()];
 }

@@ -5,6 +5,7 @@
 // Every parsing function bears the name of its rule in grammar/pnr.ebnf.
 #pragma once
 
+#include "core/pattern_assets.h"
 #include "core/scene.h"
 #include "core/settings.h"
 #include "parser/diagnostic.h"
@@ -34,9 +35,11 @@ struct Parser {
     PaintWord
         paint_defaults; // global_settings { npr { ... } } and #default { npr { ... } }, merged at the end
     std::set<std::string, std::less<>> left_out; // features that were warned about
+    int light_groups = 0; // so far
     // What inside() and trace() have built; the objects are kept, so that no other takes their place.
     std::map<std::shared_ptr<const DeclaredBlock>, std::shared_ptr<const Probe>> probes{};
     std::map<std::shared_ptr<const DeclaredBlock>, std::optional<Bounds>> extents{}; // min_extent, max_extent
+    PatternAssets pattern_assets{}; // of functions, which are evaluated while the scene is read
 };
 
 // Thrown after an error was recorded, to unwind to the nearest place that can recover (a block's end).

@@ -34,10 +34,14 @@ struct ColorMap {
 };
 // `material { texture {...} interior {...} }`
 struct SaidMaterial {
-    std::optional<Texture> texture;
+    std::optional<Texture> texture, interior_texture;
     std::optional<Interior> interior;
 };
-// A block of POV-Ray's that we know and lack (fog, normal, media ...): it can be declared and named, and
+// `slope_map { [0 <0, 1>] [1 <1, 1>] }`, alone.
+struct SlopeMap {
+    std::vector<SlopeStop> stops;
+};
+// A block of POV-Ray's that we know and lack (fog, media ...): it can be declared and named, and
 // means nothing.
 struct SkippedBlock {
     std::string word;
@@ -53,15 +57,18 @@ struct OpenFile {
 
 struct Macro;    // expander.h
 struct Function; // function.h
+struct Spline;   // spline.h
 
 // Blocks that can be declared; copied on use, heavy data (meshes) is shared inside.
 using DeclaredBlock = std::variant<Object, Texture, Pigment, Finish, Interior, LightSource, Camera, Transform,
-                                   PaintWord, ColorMap, SaidMaterial, SkippedBlock>;
+                                   PaintWord, ColorMap, BlendMap<Pigment>, Normal, SlopeMap,
+                                   BlendMap<Normal>, BlendMap<Texture>, SaidMaterial, SkySphere, Fog, Rainbow,
+                                   SkippedBlock>;
 
 struct Value {
     std::variant<std::monostate, double, VectorValue, std::string, std::shared_ptr<ArrayValue>,
                  std::shared_ptr<const DeclaredBlock>, std::shared_ptr<const Macro>,
-                 std::shared_ptr<const Function>, std::shared_ptr<OpenFile>>
+                 std::shared_ptr<const Function>, std::shared_ptr<OpenFile>, std::shared_ptr<const Spline>>
         data;
 };
 

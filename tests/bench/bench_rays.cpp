@@ -264,10 +264,12 @@ int run(const Options& options) {
         kernels.push_back(make_pnr(*kernel, chosen ? "pnr" : std::string("pnr-") + kernel->name));
     }
     kernels.push_back(make_cgal_tree());
+    kernels.push_back(make_pnr_scene());
     std::erase_if(kernels, [&](const auto& kernel) {
         const auto& wanted = options.kernels;
-        return !wanted.empty() && !kernel->name.starts_with("embree") &&
-               std::find(wanted.begin(), wanted.end(), kernel->name) == wanted.end();
+        const bool asked = std::find(wanted.begin(), wanted.end(), kernel->name) != wanted.end();
+        if (kernel->name == "pnr-scene") return !asked; // no kernel: only if it is asked for
+        return !wanted.empty() && !kernel->name.starts_with("embree") && !asked;
     });
 
     const LeakRays leak_rays = make_leak_rays(scene, mesh_only, 1000000);

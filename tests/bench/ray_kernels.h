@@ -35,6 +35,7 @@ public:
 };
 
 std::unique_ptr<RayKernel> make_pnr(const BvhKernel& kernel, const std::string& name);
+std::unique_ptr<RayKernel> make_pnr_scene(); // through core/geometry.h
 std::unique_ptr<RayKernel> make_embree(bool robust);
 std::unique_ptr<RayKernel> make_cgal_tree();
 

@@ -274,6 +274,18 @@ TEST(Program, PickNamesTheObjectAndGivesASeed) {
               std::string::npos);
 }
 
+TEST(Program, IlicPaintsAFlatPicture) {
+    const TemporaryFolder folder;
+    folder.write("a.pnr", plain_scene);
+    ASSERT_EQ(run_pnr(folder, {"render", "a.pnr", "-W", "48", "-o", "a.png"}).code, 0);
+    const Ran ran = run_pnr(folder, {"ilic", "a.png", "--length", "20", "--style", "oil"});
+    EXPECT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(read_image(folder / "a_painted.png").width, 48);
+    EXPECT_EQ(run_pnr(folder, {"ilic", "a.png", "--style", "watercolour"}).code, 2);
+    EXPECT_EQ(run_pnr(folder, {"ilic", "absent.png"}).code, 4);
+    EXPECT_EQ(run_pnr(folder, {"ilic", "a.pnr"}).code, 4) << "no picture";
+}
+
 TEST(Program, PlanSaysWhatIsLeftOut) {
     const TemporaryFolder folder;
     folder.write("a.pnr", plain_scene);

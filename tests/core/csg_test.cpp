@@ -349,7 +349,7 @@ TEST(Csg, CutsShowTheirOwnMaterialOrTheCutOnes) {
         const World world = world_of({object});
         const auto hit = closest_hit(world, {Vec3(0.1, 0.1, -5) - world.offset, {0, 0, 1}}, RayKind::camera);
         return world.materials[static_cast<std::size_t>(world.surfaces[hit->surface].material)]
-            .pigment.map[0]
+            .texture.pigment.map[0]
             .color.rgb;
     };
     const Object body = group(Combination::unite, {colored(solid(Box{{-1, -1, -1}, {0, 1, 1}}), {1, 0, 0}),

@@ -18,12 +18,12 @@ struct OneSurface {
     Hit hit;
     explicit OneSurface(ColorFT color = {Color(1), 0, 0}) {
         world.materials.resize(1);
-        world.materials[0].pigment.map = {{0, color}};
+        world.materials[0].texture.pigment.map = {{0, color}};
         world.surfaces.resize(1);
         world.surfaces[0].object = 0;
         hit.normal = hit.shading_normal = {0, 0, 1};
     }
-    Finish& finish() { return world.materials[0].finish; }
+    Finish& finish() { return world.materials[0].texture.finish; }
     Interior& interior() { return world.materials[0].interior; }
     Bsdf bsdf(Vec3 outgoing) const { return make_bsdf(world, hit, outgoing); }
 };

@@ -71,7 +71,7 @@ TEST(BuildWorld, ChildrenInheritWhatTheyDoNotSay) {
     group.children = {child, unpainted};
     const World world = build_world(scene_of({group}), {});
     const Material& material = world.materials[static_cast<std::size_t>(world.surfaces[0].material)];
-    EXPECT_EQ(material.pigment.map[0].color.rgb, Color(1, 0, 0));
+    EXPECT_EQ(material.texture.pigment.map[0].color.rgb, Color(1, 0, 0));
     EXPECT_EQ(material.interior.ior, 1.5);
     EXPECT_EQ(world.surfaces[0].object, 1);
     EXPECT_EQ(world.surfaces[1].object, 2);

@@ -106,6 +106,33 @@ TEST(Directive, Scopes) {
               "gone");
 }
 
+TEST(Directive, LocalsOfMacrosThatAreStillOpen) {
+    // The value ends inside the macro, whose own locals go on.
+    EXPECT_EQ(run("#macro M() #local Q = 5; Q; #local Z = 7; #end #local Q = M() #debug str(Q, 0, 0)"), "5");
+    EXPECT_EQ(run("#macro M() #local Q = 5; Q; #end #macro N() #local Q = M() #local R = Q + M() R; #end "
+                  "#declare Q = "
+                  "N(); #debug str(Q, 0, 0)"),
+              "10");
+    EXPECT_EQ(run("#macro M() 5; #end #macro N() #local Q = M() #end N() #ifdef (Q) #debug \"leak\" #end"),
+              "");
+    EXPECT_EQ(run("#macro T(A) transform { translate A } #end #macro M() #local Matrix = T(x) #local B = 3; "
+                  "#declare F "
+                  "= function { transform { Matrix } } #end M() #debug str(F(1, 2, 3).x, 0, 0)"),
+              "2");
+}
+
+TEST(Directive, CommasThatMayBeMissing) {
+    EXPECT_EQ(run("#macro M(A B, C) #debug str(A * B + C, 0, 0) #end M(3 4, 5)"), "17");
+    EXPECT_NE(first_error("#macro M(A) #end M(3 4)"), "");
+}
+
+TEST(Directive, UndefOfElements) {
+    EXPECT_EQ(run("#declare A = array[2][2] {{1, 2}, {3, 4}} #undef A[0][1] #ifdef (A[0][1]) #debug \"y\" "
+                  "#else #debug "
+                  "\"n\" #end #debug str(A[1][1], 0, 0)"),
+              "n4");
+}
+
 TEST(Directive, Values) {
     EXPECT_EQ(run("#declare F = 5; #declare F = \"text\"; #debug F"), "text");
     EXPECT_EQ(run("#declare S = sphere { 0, 1 pigment { rgb 1 } } #declare T = S; object { T }"), "");
@@ -114,6 +141,8 @@ TEST(Directive, Values) {
     EXPECT_EQ(run("#version 3.5; #debug str(version, 0, 1)"), "3.5");
     EXPECT_EQ(run("#declare length = 2; #debug str(length + 1, 0, 0)"), "3"); // a free word
 }
+
+TEST(Directive, StreamsOfOldScenes) { EXPECT_EQ(run("#render \"a\" #statistics \"b\" #debug \"c\""), "abc"); }
 
 TEST(Directive, Files) {
     const std::string write =

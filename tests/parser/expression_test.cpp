@@ -110,10 +110,16 @@ TEST(Expression, Functions) {
         {"vdot(<1, 2, 3>, <4, 5, 6>)", "32.000000"},
         {"strlen(\"abc\")", "3.000000"},
         {"strcmp(\"a\", \"b\")", "-1.000000"},
-        {"strcmp(\"b\", \"a\")", "1.000000"},
+        {"strcmp(\"ab\", \"a\")", "98.000000"}, // the code of the first character that differs
+        {"strcmp(\"B\", \"a\")", "-31.000000"},
         {"strcmp(\"a\", \"a\")", "0.000000"},
         {"asc(\"a\")", "97.000000"},
+        {"asc(chr(1000))", "1000.000000"},
+        {"strlen(concat(\"a\", chr(228), \"b\"))", "3.000000"},
         {"val(\" 1.5\")", "1.500000"},
+        {"val(\"-1.5e2abc\")", "-150.000000"},
+        {"val(\"0x10\")", "16.000000"},
+        {"val(\"abc\")", "0.000000"},
         {"defined(Nothing)", "0.000000"},
         {"defined(sphere)", "0.000000"},
         {"file_exists(\"no_such_file.inc\")", "0.000000"},
@@ -147,6 +153,8 @@ TEST(Expression, Vectors) {
         {3, "vrotate(<1, 2, 3>, <30, 40, 50>)", "1.8013 2.5077 2.1135"},
         {3, "vaxis_rotate(<1, 2, 3>, <1, 1, 0>, 30)", "2.1276 0.8724 2.9516"},
         {3, "(1 ? <1, 2, 3> : 4)", "1.0000 2.0000 3.0000"},
+        {3, "vturbulence(2, 0.5, 6, <0.1, 0.2, 0.3>)", "-0.0492 -0.2072 -0.5549"},
+        {3, "vturbulence(3, 0.4, 1, <5.1, -0.2, 0.3>)", "0.4166 -0.2549 0.0704"},
     };
     for (const VectorRow& row : rows)
         EXPECT_EQ(vector(row.size, row.expression), row.printed) << row.expression;
@@ -162,6 +170,9 @@ TEST(Expression, Colours) {
         {"color <1, 2>", "1.0000 2.0000 0.0000 0.0000 0.0000"},
         {"colour <1, 2, 3, 4>", "1.0000 2.0000 3.0000 4.0000 0.0000"},
         {"rgbt <1, 2, 3, 4>", "1.0000 2.0000 3.0000 0.0000 4.0000"},
+        {"rgb <1, 2, 3, 4, 5>", "1.0000 2.0000 3.0000 4.0000 5.0000"},
+        {"rgbt <1, 2, 3, 4, 5>", "1.0000 2.0000 3.0000 0.0000 4.0000"},
+        {"rgb rgbft <1, 2, 3, 4, 5>", "1.0000 2.0000 3.0000 4.0000 5.0000"},
         {"rgb <1, 2, 3> * 2", "2.0000 4.0000 6.0000 0.0000 0.0000"},
         {"srgb <0.5, 0.2, 0.04> * 0.5", "0.0509 0.0100 0.0015 0.0000 0.0000"},
         {"rgb <1, 2, 3> filter 0.7", "1.0000 2.0000 3.0000 0.7000 0.0000"},
@@ -186,7 +197,8 @@ TEST(Expression, Strings) {
         {"str(1.23456789, 0, -1)", "1.234568"},
         {"str(2.5, 0, 0)", "2"},
         {"vstr(3, <1, 2, 3>, \", \", 0, 1)", "1.0, 2.0, 3.0"},
-        {"vstr(2, 5, \"|\", 0, 0)", "5|5"},
+        {"vstr(2, 5, \"|\", 0, 0)", "5|0"},
+        {"substr(concat(\"a\", chr(228), \"bc\"), 3, 2)", "bc"},
         {"datetime(0, \"%Y-%m-%d\")", "2000-01-01"},
     };
     for (const Row& row : rows) EXPECT_EQ(text(row.expression), row.printed) << row.expression;
@@ -210,6 +222,25 @@ TEST(Expression, Arrays) {
     EXPECT_EQ(run("#declare A = array[2]; #declare A[0] = array[2] {5, 6} #debug str(A[0][1], 0, 0)"), "6");
     EXPECT_EQ(run("#declare A = array[2][5]; #debug str(dimensions(A) * 10 + dimension_size(A, 2), 0, 0)"),
               "25");
+}
+
+TEST(Expression, ValuesOfArraysNeedNoCommas) {
+    EXPECT_EQ(run("#declare A = array[3] {<1, 2> <3, 4>, <-5, 6>} #debug str(A[2].x, 0, 0)"), "-5");
+}
+
+TEST(Expression, Givens) { // of a single picture, as POV-Ray has them
+    EXPECT_EQ(run("#debug str(clock + clock_delta + clock_on + frame_number + initial_frame + final_frame + "
+                  "initial_clock + final_clock, 0, 0)"),
+              "0");
+    LoadOptions frame;
+    frame.clock = 0.25;
+    frame.frame_number = 2;
+    frame.initial_frame = 1;
+    frame.final_frame = 5;
+    EXPECT_EQ(
+        run("#debug vstr(5, <clock, clock_delta, clock_on, frame_number, final_clock>, \" \", 0, 2)", frame),
+        "0.25 0.25 1.00 2.00 1.00");
+    EXPECT_EQ(run("#debug input_file_name"), "test.pnr");
 }
 
 TEST(Expression, NumbersBesideVectorsInBlocks) {

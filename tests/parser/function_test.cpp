@@ -33,13 +33,63 @@ TEST(Function, Values) {
               "0.50");
 }
 
+TEST(Function, ComparesExactly) { // unlike expressions, as POV-Ray's do
+    EXPECT_EQ(value("function (x) { (x = 3) * 10 + (x != 3) }", "f(3 + 1e-12)"), "1.0000");
+    EXPECT_EQ(value("function (x) { x & 2 }", "f(1e-12)"), "1.0000");
+    EXPECT_EQ(value("function (x) { div(x, 2) * 10 + mod(x, 2) }", "f(-7)"), "-31.0000");
+}
+
+TEST(Function, Series) {
+    EXPECT_EQ(value("function (x) { sum(i, 1, 4, i * x) }", "f(2)"), "20.0000");
+    EXPECT_EQ(value("function (x) { prod(i, 1, 4, i * x) }", "f(2)"), "384.0000");
+    EXPECT_EQ(value("function (x, y) { sum(i, 1, 3, prod(j, 1, i, j * x + y)) }", "f(2, 1)"), "123.0000");
+    EXPECT_EQ(value("function { sum(i, 1, 2, u + v * i) }", "f(1, 2, 0)"), "8.0000");
+}
+
+TEST(Function, GivesVectors) {
+    const std::string move = "#declare f = function { transform { translate 2 * x scale 3 } } ";
+    EXPECT_EQ(run(move + "#debug vstr(3, f(1, 2, 3), \" \", 0, 1)"), "9.0 6.0 9.0");
+    EXPECT_EQ(run(move + "#declare g = function (a, b) { f(a, b, 1).y * 2 } #debug str(g(1, 2), 0, 1)"),
+              "12.0");
+    const std::string pigment = "#declare f = function { pigment { gradient x color_map { [0 rgb 0] [1 rgbft "
+                                "<1, 0.5, 0.25, 0.2, 0.1>] } } } ";
+    EXPECT_EQ(run(pigment + "#debug vstr(5, f(0.5, 0, 0), \" \", 0, 4)"),
+              "0.5000 0.2500 0.1250 0.1000 0.0500");
+    EXPECT_EQ(run(pigment + "#declare g = function { f(x, 0, 0).gray } #debug str(g(0.25, 0, 0), 0, 4)"),
+              "0.1550");
+    EXPECT_EQ(run(pigment + "#debug str(f(0.25, 0, 0).gray, 0, 4)"), "0.1550");
+    EXPECT_EQ(first_error(move + "#declare g = function { f(x, y, z) }"),
+              "test.pnr:1:89: error: `f` gives a vector; take one component with .x, .y, .z, .red ...");
+}
+
+TEST(Function, Internal) {
+    EXPECT_EQ(value("function { internal(61) }", "f(1, 2, 2, 1)"), "2.0000");
+    EXPECT_EQ(
+        run("#declare S = function { internal(61) } #declare f = function { S(x, y, z, 1) * 2 + 1 } #debug "
+            "str(f(0, 3, 4), 0, 2)"),
+        "9.00");
+    EXPECT_EQ(value("function { internal(76) }", "f(0.3, 0.4, 0.5)"), "0.4759"); // printed by POV-Ray
+    EXPECT_EQ(first_error("#declare f = function { internal(77) }"),
+              "test.pnr:1:34: error: there is no internal function 77");
+    EXPECT_EQ(first_error("#declare f = function { internal(61) } #declare A = f(1, 2, 3);"),
+              "test.pnr:1:53: error: `f` takes 4 arguments, 3 are given");
+}
+
+TEST(Function, InArraysAndMacros) {
+    EXPECT_EQ(run("#declare A = array[2]; #declare A[0] = function (x) { x + 1 } #debug str(A[0](3), 0, 0)"),
+              "4");
+    EXPECT_EQ(run("#macro M(F) #local g = function (x) { F(x) * 2 } g(3) #end #declare f = function (x) { x "
+                  "+ 1 } #debug "
+                  "str(M(f), 0, 0)"),
+              "8");
+    EXPECT_EQ(run("#macro M(A) function (x) { x * A } #end #declare f = M(3) #debug str(f(2), 0, 0)"), "6");
+}
+
 TEST(Function, Errors) {
     EXPECT_EQ(first_error("#declare f = function (x) { x } #declare A = f(1, 2);"),
               "test.pnr:1:46: error: `f` takes 1 arguments, 2 are given");
     EXPECT_EQ(first_error("#declare f = function (x) { 1 / x } #declare A = f(0);"),
               "test.pnr:1:50: error: `f` has no finite value here");
-    EXPECT_EQ(first_error("#declare f = function { internal(4) } #declare A = f(0, 0, 0);"),
-              "test.pnr:1:52: error: internal functions cannot be evaluated here");
     EXPECT_EQ(first_error("#declare f = function (x) { x + Foo }"),
               "test.pnr:1:33: error: `Foo` is not declared");
     std::string doubling = "#declare f = function (x) { x + 1 }";

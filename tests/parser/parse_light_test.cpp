@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
+#include "core/world.h"
 #include "tests/parser/scene_text.h"
 
 namespace pnr {
@@ -63,6 +64,22 @@ TEST(ParseLight, LightsInUnionsAndTheirLooks) {
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_TRUE(scene.objects[1].no_shadow);
     expect_near(transform_point(scene.objects[1].transform.matrix, Vec3(0)), {5, 0, 1});
+}
+
+TEST(ParseLight, AGroupsLightsShineOnItsObjectsAlone) {
+    const Scene scene = scene_of("light_group { light_source { y, 1 } sphere { 0, 1 pigment { rgb 1 } } global_lights off }"
+                                 " sphere { 2 * x, 1 pigment { rgb 1 } } light_source { -y, 1 }");
+    const World world = build_world(scene, {});
+    ASSERT_EQ(world.lights.size(), 2u);
+    int lit[2] = {0, 0};
+    for (const Light& light : world.lights)
+        for (int i = 0; i < 2; ++i) {
+            const auto hit = closest_hit(world, {Vec3(2.0 * i, 0, -5) - world.offset, {0, 0, 1}}, RayKind::camera);
+            ASSERT_TRUE(hit);
+            if (shines_on(light, world.surfaces[hit->surface])) lit[i] += light.said.group > 0 ? 1 : 10;
+        }
+    EXPECT_EQ(lit[0], 1) << "the group's object has the group's light";
+    EXPECT_EQ(lit[1], 10) << "the other object has the other light";
 }
 
 } // namespace

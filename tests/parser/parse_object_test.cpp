@@ -40,7 +40,7 @@ TEST(ParseShapes, Analytic) {
 }
 
 TEST(ParseShapes, NothingLeftIsAnError) {
-    EXPECT_TRUE(says(diagnostics_of("sphere { 0, 0 }"), "radius is 0"));
+    EXPECT_TRUE(says(diagnostics_of("sphere { 0, 0 }"), "nothing is seen of it"));
     EXPECT_TRUE(says(diagnostics_of("cylinder { y, y, 1 }"), "two ends of a cylinder must differ"));
     EXPECT_TRUE(says(diagnostics_of("plane { 0, 1 }"), "normal of a plane"));
     EXPECT_TRUE(says(diagnostics_of("disc { 0, y, 1, 2 }"), "hole"));
@@ -113,14 +113,14 @@ TEST(ParseObject, TransformsApplyToWhatStandsBeforeThem) {
         rotate 90 * y })");
     // +90 degrees about y takes z to x and x to -z, in the left-handed frame.
     expect_near(transform_point(object.transform.matrix, Vec3(0)), {6, 4, -2});
-    expect_near(transform_point(object.texture->pigment.transform.matrix, Vec3(0)), {6, 4, -2});
+    expect_near(transform_point(object.texture->pigment.pattern.transform.matrix, Vec3(0)), {6, 4, -2});
     expect_near(object.npr->style.seeds[0].position, {0, 1, 0});
     expect_near(object.npr->style.seeds[0].direction, {0, 0, -1});
 }
 
 TEST(ParseObject, ATextureSaidAfterATransformStaysBehind) {
     const Object object = object_of("sphere { 0, 1 translate x pigment { checker rgb 0, rgb 1 } }");
-    EXPECT_TRUE(is_identity(object.texture->pigment.transform));
+    EXPECT_TRUE(is_identity(object.texture->pigment.pattern.transform));
 }
 
 TEST(ParseObject, UnionTransformsReachTheChildren) {
@@ -172,12 +172,11 @@ TEST(ParseObject, PhotonRoles) {
 
 TEST(ParseObject, WhatWeLackIsNamedAndSkipped) {
     const std::string all =
-        diagnostics_of("blob { threshold 0.5 sphere { 0, 1, 1 } pigment { rgb 1 } } fog { distance 3 }" +
+        diagnostics_of("media { } sphere { 0, 1 finish { subsurface { translucency 1 } } pigment { rgb 1 } }" +
                        std::string("sphere { 0, 1") + paint +
-                       "normal { bumps 0.4 scale 2 } } light_source { y, 1 } camera { }");
-    EXPECT_TRUE(says(all, "warning: `blob` is not supported"));
-    EXPECT_TRUE(says(all, "warning: `fog` is not supported"));
-    EXPECT_TRUE(says(all, "warning: `normal` is not supported"));
+                       "interior { media { } } } light_source { y, 1 } camera { }");
+    EXPECT_TRUE(says(all, "warning: `subsurface` is not supported"));
+    EXPECT_TRUE(says(all, "warning: `media` is not supported"));
     EXPECT_FALSE(says(all, "error"));
 }
 
