@@ -24,6 +24,10 @@ LoadOptions load_options(const Options& options, const AnimationFrame& frame) {
     load.frame_number = frame.number;
     load.initial_frame = frame.first;
     load.final_frame = frame.last;
+    if (options.frames) {
+        load.initial_clock = options.clock_first;
+        load.final_clock = options.clock_last;
+    }
     load.library = options.library;
     if (const char* path = std::getenv("PNR_LIBRARY_PATH")) {
         const std::string folders(path);
@@ -75,11 +79,13 @@ std::vector<AnimationFrame> frames_of(const Options& options) {
     }
     const FrameRange& range = *options.frames;
     std::vector<AnimationFrame> frames;
-    for (int number = range.first; number <= range.last; number += range.step) {
-        const double share = range.last > range.first
-                                 ? static_cast<double>(number - range.first) / (range.last - range.first)
-                                 : 0;
-        frames.push_back({number, range.first, range.last, share});
+    const int steps = range.last - range.first + (options.cyclic ? 1 : 0);
+    const FrameRange& wanted = options.subset ? *options.subset : range;
+    const double length = options.clock_last - options.clock_first;
+    for (int number = wanted.first; number <= wanted.last; number += wanted.step) {
+        if (number < range.first || number > range.last) continue;
+        const double share = steps > 0 ? static_cast<double>(number - range.first) / steps : 0;
+        frames.push_back({number, range.first, range.last, options.clock_first + length * share});
     }
     return frames;
 }

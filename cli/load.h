@@ -14,7 +14,8 @@ struct AnimationFrame {
     int number = 0, first = 0, last = 0;
     double clock = 0;
 };
-// The frames that --frames asks for; clock runs from 0 at the first to 1 at the last.
+// The frames that are to be rendered; the clock runs from --clock-first at the first of --frames to --clock-last at the
+// last.
 std::vector<AnimationFrame> frames_of(const Options& options);
 // out.png and frame 7: out0007.png; a row of # says where the number stands and how long it is.
 std::filesystem::path numbered(const std::filesystem::path& file, int frame);

@@ -78,7 +78,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 // What CLI11 fills and still needs a look.
 struct Words {
-    std::string scene, size, crop, frames, aov, at, to, help;
+    std::string scene, size, crop, frames, subset, aov, at, to, help;
     std::vector<std::string> declares, outputs, library, limits;
     bool no_prune = false;
 };
@@ -145,6 +145,11 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
         ->type_name("X0,Y0,X1,Y1");
     app.add_option("--frames", words.frames,
                    "Render these frames; the scene's `clock` goes from 0 to 1 over them")
+        ->type_name("A-B[xSTEP]");
+    app.add_option("--clock-first", options.clock_first, "The clock of the first frame (default: 0)");
+    app.add_option("--clock-last", options.clock_last, "The clock of the last frame (default: 1)");
+    app.add_flag("--cyclic", options.cyclic, "The clock's end is the frame behind the last: the animation runs round");
+    app.add_option("--subset", words.subset, "Of the frames, render these alone; the clock stays as it is")
         ->type_name("A-B[xSTEP]");
     app.add_option("--clock", options.clock)->group(""); // POV-Ray's +K
     app.add_option("--exposure", options.exposure, "Brighten or darken PNG pictures by stops")
@@ -285,6 +290,8 @@ void finish_options(Options& options, const Words& words) {
             throw UsageError(fmt::format("--crop {}: a crop is said as X0,Y0,X1,Y1", words.crop));
     }
     if (!words.frames.empty()) options.frames = to_frames(words.frames);
+    if (!words.subset.empty()) options.subset = to_frames(words.subset);
+    if (options.subset && !options.frames) throw UsageError("--subset: which frames are there? --frames says it");
     if (options.exposure && !(std::abs(*options.exposure) <= 100))
         throw UsageError("--exposure: a number of stops from -100 to 100 is expected");
     if (options.time_s && !(*options.time_s > 0 && *options.time_s <= 1e7))

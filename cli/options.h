@@ -50,7 +50,10 @@ struct Options {
     std::filesystem::path allow_write; // #fopen may write files below it; empty: nowhere
     std::optional<CropWord> crop;
     std::optional<FrameRange> frames;
-    double clock = 0; // of a single picture
+    std::optional<FrameRange> subset;      // of the frames, those that are rendered
+    double clock = 0;                      // of a single picture
+    double clock_first = 0, clock_last = 1; // over the frames
+    bool cyclic = false; // the frame behind the last one would be the first again: the clock stops short of its end
     std::optional<double> exposure;
     std::optional<View> view;
     std::optional<Quality> quality;

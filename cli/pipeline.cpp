@@ -2,9 +2,12 @@
 #include "cli/pipeline.h"
 
 #include "cli/interrupt.h"
+#include "core/emission.h"
 #include "cli/refine.h"
 #include "core/irradiance_field.h"
 #include "core/trace_photons.h"
+
+#include <fmt/format.h>
 
 #include <cmath>
 
@@ -130,23 +133,79 @@ PictureSize picture_size(const Camera& camera, const RenderSettings& settings) {
     return default_size(camera);
 }
 
-Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, Passes& passes) {
+namespace {
+
+// Memory for pixels is taken at once: better an answer than a machine that stands still.
+void check_picture(const PictureSize& size, const Budgets& budgets) {
+    const std::int64_t pixels = static_cast<std::int64_t>(size.width) * size.height;
+    if (pixels <= budgets.pixels) return;
+    throw UsageError(fmt::format("a picture of {} x {} pixels is larger than the {} that are allowed; `--limit "
+                                 "pixels={}` allows it",
+                                 size.width, size.height, budgets.pixels, pixels));
+}
+
+void check_photons(const Scene& scene, const World& world, const Settings& settings, const Budgets& budgets) {
+    const std::int64_t count = plan_emission(world, settings.photons).count;
+    if (count <= budgets.photons) return;
+    throw SceneError({scene.file, 0, 0},
+                     fmt::format("{} photons are asked for, more than the {} that are allowed; say a smaller `count` or "
+                                 "a larger `spacing`, or `--limit photons={}`",
+                                 count, budgets.photons, count));
+}
+
+// Only the camera may have moved since the map was made.
+bool still_holds(const KeptPhotons& kept, std::uint64_t world_hash, const Settings& settings, const Plan& plan) {
+    const PhotonSettings &a = kept.settings.photons, &b = settings.photons;
+    return kept.valid && kept.world == world_hash && kept.settings.render.seed == settings.render.seed &&
+           a.count == b.count && a.spacing == b.spacing && kept.normals == plan.normals;
+}
+
+// The map as it was before its first frame: the field's records are made where a picture needs them.
+PhotonMap take_kept(const Rendering& r, KeptPhotons& kept, Passes& passes) {
+    PhotonMap map = std::move(kept.map);
+    if (map.field)
+        passes.run("kdtree", [&](const Progress& progress) {
+            map.field = make_irradiance_field(r.world, map, progress);
+        });
+    return map;
+}
+
+} // namespace
+
+void keep_photons(Rendering& r, std::uint64_t world_hash, KeptPhotons& kept) {
+    if (r.stopped || !r.plan.photons) return;
+    kept.valid = true;
+    kept.world = world_hash;
+    kept.settings = r.settings;
+    kept.normals = r.plan.normals;
+    kept.map = std::move(r.photons);
+}
+
+Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, KeptPhotons& kept,
+                       std::uint64_t world_hash, Passes& passes) {
     Rendering r;
     r.settings = settings;
     const PictureSize size = picture_size(scene.camera, settings.render);
     r.settings.render.width = size.width;
     r.settings.render.height = size.height;
+    check_picture(size, wishes.budgets);
     r.window = crop_window(wishes.crop, size.width, size.height);
 
     r.world = passes.run("build", [&](const Progress&) { return build_world(scene, r.settings); });
     r.plan = make_plan(r.world, r.settings, wishes.maps);
+    const bool reuse = !wishes.refinement && still_holds(kept, world_hash, r.settings, r.plan);
+    if (reuse)
+        r.plan.left_out.push_back({"photons", "only the camera has moved since the frame before: its map is used again"});
+    else if (r.plan.photons && wishes.load_photons.empty())
+        check_photons(scene, r.world, r.settings, wishes.budgets);
     passes.expect(expected_passes(r.plan, wishes));
     stop_gently();
     const PictureView view{r.world.camera, size.width, size.height};
     // Strokes and fills reach across the picture, so a crop of a painting is cut from the whole painting.
     const bool all = r.plan.paint || wishes.maps;
     try {
-        r.photons = first_photons(scene, r, wishes, !wishes.refinement, passes);
+        r.photons = reuse ? take_kept(r, kept, passes) : first_photons(scene, r, wishes, !wishes.refinement, passes);
+        kept.valid = false;
         r.gbuffer = passes.run("gbuffer", [&](const Progress& progress) {
             return make_gbuffer(r.world, view, all ? whole(view) : grow(r.window, 1, view.width, view.height),
                                 r.settings.render, progress);

@@ -13,6 +13,7 @@
 #include "core/scene.h"
 #include "core/world.h"
 #include "npr/paint.h"
+#include "parser/limits.h"
 
 #include <filesystem>
 #include <functional>
@@ -36,6 +37,16 @@ struct Wishes {
     std::optional<Refinement> refinement;
     // Called between two progressive passes when a signal asks for the picture so far.
     std::function<void(const struct Rendering&)> show;
+    Budgets budgets; // pixels and photons
+};
+
+// The photon map of the frame before, for the frames that show the same world.
+struct KeptPhotons {
+    bool valid = false;
+    std::uint64_t world = 0; // LoadResult::world_hash
+    Settings settings;       // photons and the seed count
+    bool normals = false;
+    PhotonMap map;
 };
 
 // All that a rendering leaves behind. Images have the picture's full size; pixels outside `window` are 0.
@@ -70,7 +81,11 @@ PhotonMap make_photons(const Rendering& r, const Settings& settings, int batch, 
 // Smooth indirect light over a map that has its tree, where the scene needs it.
 void add_field(const Rendering& r, double shrink, PhotonMap& map, Passes& passes);
 
-// Throws SceneError, FileError, UsageError (a crop that leaves the picture).
-Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, Passes& passes);
+// `kept` and `world_hash`: of an animation; the map is taken from there if it still holds. Throws SceneError, FileError,
+// UsageError (a crop that leaves the picture, a picture or a photon map larger than the budgets allow).
+Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, KeptPhotons& kept,
+                       std::uint64_t world_hash, Passes& passes);
+// Moves the rendering's photon map to where the next frame finds it.
+void keep_photons(Rendering& rendering, std::uint64_t world_hash, KeptPhotons& kept);
 
 } // namespace pnr

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/povray_options.h"
 
+#include "cli/ini_file.h"
 #include "cli/options.h"
 
 #include <fmt/format.h>
@@ -27,25 +28,38 @@ constexpr const char* meaningless[] = {"UA", "UD", "UL", "UO", "UR", "UV", "AM",
                                        "GF", "GI", "GP", "GR", "GS", "GW", "HI", "MB", "MV", "RP", "SP",
                                        "EP", "XM", "B",  "C",  "D",  "F",  "J",  "P",  "R",  "V",  "X"};
 
-// First and last frame, said apart (+KFI, +KFF).
+// An animation's frames and clock, said apart (+KFI, +KFF, +SF, +EF, +KI, +KF, +KC).
 struct Frames {
-    std::string first = "1", last;
+    std::string first = "1", last, subset_first, subset_last, clock_first, clock_last;
+    bool cyclic = false;
 };
 
 // Name=Value, in lower case, as in .ini files.
 constexpr std::pair<const char*, const char*> settings[] = {
-    {"width", "-W"},
-    {"height", "-H"},
-    {"output_file_name", "-o"},
-    {"library_path", "-L"},
-    {"work_threads", "--threads"},
-    {"declare", "-D"},
-    {"input_file_name", ""},
-    {"display", nullptr},
-    {"pause_when_done", nullptr},
-    {"verbose", nullptr},
-    {"output_alpha", nullptr},
-    {"jitter", nullptr},
+    {"width", "-W"},         {"height", "-H"},      {"output_file_name", "-o"}, {"library_path", "-L"},
+    {"work_threads", "--threads"}, {"declare", "-D"}, {"input_file_name", ""},    {"clock", "--clock"},
+};
+constexpr std::pair<const char*, std::string Frames::*> frame_settings[] = {
+    {"initial_frame", &Frames::first},          {"final_frame", &Frames::last},
+    {"subset_start_frame", &Frames::subset_first}, {"subset_end_frame", &Frames::subset_last},
+    {"initial_clock", &Frames::clock_first},    {"final_clock", &Frames::clock_last},
+};
+// Those that mean nothing here: display, messages, POV-Ray's own ways to be fast, shell commands (never run).
+constexpr const char* ignored_settings[] = {
+    "display", "pause_when_done", "verbose", "output_alpha", "jitter", "jitter_amount", "antialias_depth",
+    "sampling_method", "antialias_gamma", "output_to_file", "output_file_type", "compression", "bits_per_color",
+    "display_gamma", "file_gamma", "video_mode", "palette", "draw_vistas", "light_buffer", "vista_buffer",
+    "bounding", "bounding_method", "bounding_threshold", "bsp_maxdepth", "remove_bounds", "split_unions",
+    "continue_trace", "test_abort", "test_abort_count", "preview_start_size", "preview_end_size",
+    "all_console", "all_file", "debug_console", "debug_file", "fatal_console", "fatal_file", "render_console",
+    "render_file", "statistic_console", "statistic_file", "warning_console", "warning_file", "warning_level",
+    "create_ini", "create_histogram", "histogram_type", "histogram_grid_size", "histogram_name", "buffer_output",
+    "buffer_size", "field_render", "odd_field", "radiosity_file_name", "radiosity_from_file", "radiosity_to_file",
+    "radiosity_vain_pretrace", "high_reproducibility", "render_block_size", "render_block_step", "render_pattern",
+    "max_image_buffer_memory", "include_header", "user_abort_command", "pre_scene_command", "pre_frame_command",
+    "post_scene_command", "post_frame_command", "fatal_error_command", "user_abort_return", "pre_scene_return",
+    "pre_frame_return", "post_scene_return", "post_frame_return", "fatal_error_return", "dither", "dither_method",
+    "grayscale_output", "version",
 };
 
 bool starts_with_letters(const std::string& argument, const std::string& letters) {
@@ -69,10 +83,16 @@ void translate_plus(const std::string& argument, Frames& frames, std::vector<std
     const auto value_after = [&](const char* letters) {
         return argument.substr(1 + std::string(letters).size());
     };
-    if (starts_with_letters(argument, "KFI")) {
-        frames.first = value_after("KFI");
-    } else if (starts_with_letters(argument, "KFF")) {
-        frames.last = value_after("KFF");
+    static constexpr std::pair<const char*, std::string Frames::*> frame_switches[] = {
+        {"KFI", &Frames::first},      {"KFF", &Frames::last},       {"SF", &Frames::subset_first},
+        {"EF", &Frames::subset_last}, {"KI", &Frames::clock_first}, {"KF", &Frames::clock_last}};
+    for (const auto& [letters, member] : frame_switches)
+        if (starts_with_letters(argument, letters)) {
+            frames.*member = value_after(letters);
+            return;
+        }
+    if (starts_with_letters(argument, "KC") && argument.size() == 3) {
+        frames.cyclic = true;
     } else if (starts_with_letters(argument, "Q")) {
         ours.insert(ours.end(), {"--quality", quality_of(value_after("Q"))});
     } else if (starts_with_letters(argument, "A") && !starts_with_letters(argument, "AM")) {
@@ -94,20 +114,29 @@ void translate_plus(const std::string& argument, Frames& frames, std::vector<std
     }
 }
 
-// Name=Value; false if it is no such setting.
-bool translate_setting(const std::string& argument, std::vector<std::string>& ours) {
+bool is_on(const std::string& value) { return value == "on" || value == "true" || value == "yes" || value == "1"; }
+
+// Name=Value; false if it is no setting of POV-Ray's.
+bool translate_setting(const std::string& argument, Frames& frames, std::vector<std::string>& ours) {
     const std::size_t equals = argument.find('=');
     if (equals == std::string::npos || argument[0] == '-' || argument[0] == '+') return false;
-    std::string name = argument.substr(0, equals);
-    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    std::string name = argument.substr(0, equals), value = argument.substr(equals + 1), word = value;
+    for (std::string* text : {&name, &word})
+        for (char& c : *text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     for (const auto& [known, option] : settings) {
         if (name != known) continue;
-        if (option == nullptr) return true;
         if (*option != '\0') ours.emplace_back(option);
-        ours.push_back(argument.substr(equals + 1));
+        ours.push_back(value);
         return true;
     }
-    return false;
+    for (const auto& [known, member] : frame_settings)
+        if (name == known) return frames.*member = value, true;
+    if (name == "cyclic_animation") return frames.cyclic = is_on(word), true;
+    if (name == "antialias" && !is_on(word)) return ours.insert(ours.end(), {"--antialias", "0"}), true;
+    if (name == "antialias") return true;
+    if (name == "antialias_threshold") return ours.insert(ours.end(), {"--antialias", value}), true;
+    if (name == "quality") return ours.insert(ours.end(), {"--quality", quality_of(value)}), true;
+    return std::find(std::begin(ignored_settings), std::end(ignored_settings), name) != std::end(ignored_settings);
 }
 
 // -A turns antialiasing off; of POV-Ray's other switches with a minus, those that mean nothing are dropped.
@@ -123,10 +152,58 @@ bool translate_minus(const std::string& argument, std::vector<std::string>& ours
 
 } // namespace
 
+namespace {
+
+// .ini files in place of their names.
+std::vector<std::string> with_ini_files(const std::vector<std::string>& arguments) {
+    std::vector<std::string> all;
+    for (const std::string& argument : arguments) {
+        if (!is_ini(argument)) {
+            all.push_back(argument);
+            continue;
+        }
+        for (std::string& setting : read_ini(argument)) {
+            Frames ignored;
+            std::vector<std::string> test;
+            if (setting.find('=') != std::string::npos && !translate_setting(setting, ignored, test))
+                throw UsageError(fmt::format("{}: POV-Ray has no setting `{}`, or pnr does not know it", argument, setting));
+            all.push_back(std::move(setting));
+        }
+    }
+    return all;
+}
+
+// Of what a file says and the command line says again, the last counts, as in POV-Ray.
+void keep_last(std::vector<std::string>& ours) {
+    for (const char* option : {"-W", "-H", "--threads", "--clock", "--antialias", "--quality"}) {
+        bool seen = false;
+        for (std::size_t i = ours.size(); i-- > 0;) {
+            if (ours[i] != option || i + 1 >= ours.size()) continue;
+            const auto at = ours.begin() + static_cast<std::ptrdiff_t>(i);
+            if (seen) ours.erase(at, at + 2);
+            seen = true;
+        }
+    }
+}
+
+void add_frames(const Frames& frames, std::vector<std::string>& ours) {
+    if (!frames.last.empty()) ours.insert(ours.end(), {"--frames", frames.first + "-" + frames.last});
+    if (!frames.subset_first.empty() || !frames.subset_last.empty())
+        ours.insert(ours.end(), {"--subset", (frames.subset_first.empty() ? frames.first : frames.subset_first) + "-" +
+                                                 (frames.subset_last.empty() ? frames.last : frames.subset_last)});
+    if (!frames.clock_first.empty()) ours.insert(ours.end(), {"--clock-first", frames.clock_first});
+    if (!frames.clock_last.empty()) ours.insert(ours.end(), {"--clock-last", frames.clock_last});
+    if (frames.cyclic) ours.emplace_back("--cyclic");
+}
+
+} // namespace
+
 std::vector<std::string> from_povray_options(std::vector<std::string> arguments) {
     std::vector<std::string> ours;
     Frames frames;
-    if (!arguments.empty() && arguments[0].size() > 1 && arguments[0][0] == '+') ours.emplace_back("render");
+    const bool alone = !arguments.empty() && ((arguments[0].size() > 1 && arguments[0][0] == '+') || is_ini(arguments[0]));
+    if (alone) ours.emplace_back("render");
+    arguments = with_ini_files(arguments);
     for (std::size_t i = 0; i < arguments.size(); ++i) {
         const std::string& argument = arguments[i];
         const bool last = i + 1 == arguments.size();
@@ -140,11 +217,12 @@ std::vector<std::string> from_povray_options(std::vector<std::string> arguments)
             translate_plus(argument, frames, ours);
         } else if (translate_minus(argument, ours)) {
             continue;
-        } else if (!translate_setting(argument, ours)) {
+        } else if (!translate_setting(argument, frames, ours)) {
             ours.push_back(argument);
         }
     }
-    if (!frames.last.empty()) ours.insert(ours.end(), {"--frames", frames.first + "-" + frames.last});
+    keep_last(ours);
+    add_frames(frames, ours);
     return ours;
 }
 

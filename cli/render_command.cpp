@@ -112,7 +112,7 @@ int code_of(const Rendering& r, const Options& options) {
     return exit_missed;
 }
 
-int render_frame(const Options& options, const AnimationFrame& frame) {
+int render_frame(const Options& options, const AnimationFrame& frame, KeptPhotons& kept) {
     const Files files = files_of(options, frame);
     const auto& pictures = files.pictures;
     for (const fs::path& picture : pictures) check_output(picture);
@@ -135,12 +135,14 @@ int render_frame(const Options& options, const AnimationFrame& frame) {
         };
         const Wishes wishes{options.crop,         !files.maps.empty(),     wants_light_parts(options),
                             options.save_photons, options.load_photons,    refinement_of(options),
-                            write_pictures};
-        const Rendering r =
-            render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, passes);
+                            write_pictures,       options.budgets};
+        Rendering r = render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, kept,
+                                   loaded.world_hash, passes);
         report_faults(r.faults);
         write_results(loaded, r, options, files, passes);
-        return code_of(r, options);
+        const int code = code_of(r, options);
+        if (!wishes.refinement) keep_photons(r, loaded.world_hash, kept);
+        return code;
     });
 }
 
@@ -149,9 +151,10 @@ int render_frame(const Options& options, const AnimationFrame& frame) {
 int run_render(const Options& options) {
     check_aovs(options.aovs);
     const ThreadLimit limit(options.threads);
+    KeptPhotons kept;
     int result = exit_done;
     for (const AnimationFrame& frame : frames_of(options)) {
-        const int code = render_frame(options, frame);
+        const int code = render_frame(options, frame, kept);
         if (code != exit_done && code != exit_missed) return code;
         if (code == exit_missed) result = code;
         if (stop_signal() != 0) return exit_signal + stop_signal(); // between two frames

@@ -86,6 +86,12 @@ void snap_seeds(const World& world, int object, OrientationField& field, FieldRe
         append_seed_value(field, snapped, weight);
     }
     report.seeds = static_cast<int>(field.seeds.size());
+    constexpr std::size_t most_at_once = 1500; // the system of all seeds is dense
+    constexpr int enough = 24;
+    if (field.seeds.size() > most_at_once && field.style.neighbours == 0) {
+        field.style.neighbours = enough;
+        report.notes.push_back(fmt::format("more than {} seeds: each place takes the {} nearest", most_at_once, enough));
+    }
 }
 
 std::vector<Vec3> seed_positions(const OrientationField& field) {

@@ -51,6 +51,7 @@ VectorValue vector_of(Vec3 v) { return {{v.x, v.y, v.z, 0, 0}, 3, false}; }
 // normal there, or zero where nothing is hit.
 VectorValue trace_object(Parser& p, const Token& name, const Declared& object) {
     const Vec3 from = point_argument(p, name), direction = point_argument(p, name);
+    charge_work(p, name, 50); // rays take their time
     const auto hit = trace(probe_of(p, name, object), from, direction);
     if (accept(p, ',')) {
         const Token variable = peek(p);
@@ -81,7 +82,9 @@ VectorValue object_function(Parser& p, const Token& name) {
         return is;
     }
     constexpr double far = 1e10; // POV-Ray's end of the endless
-    const Bounds box = object_bounds(std::get<Object>(*object));
+    auto& known = p.extents[object];
+    if (!known) known = object_bounds(std::get<Object>(*object));
+    const Bounds box = *known;
     if (is_empty(box)) return vector_of(Vec3(0));
     return vector_of(glm::clamp(word == "min_extent"_kw ? box.low : box.high, Vec3(-far), Vec3(far)));
 }

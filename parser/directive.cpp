@@ -215,6 +215,7 @@ void break_directive(Parser& p, const Token& directive) {
 
 std::string message_text(Parser& p) {
     const HoldScope hold(p);
+    const Untold untold(p.in);
     return parse_string(p);
 }
 

@@ -12,6 +12,7 @@
 #include "parser/load_scene.h"
 #include "parser/value.h"
 
+#include <bit>
 #include <cstdint>
 #include <deque>
 #include <memory>
@@ -134,9 +135,29 @@ struct Expander {
     double version = 3.7;
     bool version_said = false;
     std::string debug_output;
+    std::uint64_t told = 1469598103934665603ull; // hash of what the blocks were told (LoadResult::world_hash)
+    bool telling = true;                         // not in a camera's block, nor in #debug and the like
 
     Expander(Sources& all_sources, std::vector<Diagnostic>& all_diagnostics, const LoadOptions& load_options)
         : sources(all_sources), diagnostics(all_diagnostics), options(load_options) {}
+};
+
+// One more thing that a block was told: a word, a sign, or a value.
+inline void tell(Expander& in, std::uint64_t thing) {
+    if (!in.telling) return;
+    in.told = (in.told ^ thing) * 0x9e3779b97f4a7c15ull;
+    in.told ^= in.told >> 29;
+}
+inline void tell(Expander& in, double value) { tell(in, std::bit_cast<std::uint64_t>(value + 0.0)); } // -0 is 0
+
+// What is read while this lives makes no difference to the world.
+struct Untold {
+    Expander& in;
+    bool before;
+    explicit Untold(Expander& expander) : in(expander), before(expander.telling) { in.telling = false; }
+    ~Untold() { in.telling = before; }
+    Untold(const Untold&) = delete;
+    Untold& operator=(const Untold&) = delete;
 };
 
 // Thrown when the run cannot go on: a budget is used up, or there are too many errors. Recorded before.

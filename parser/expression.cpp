@@ -98,12 +98,22 @@ double parse_condition(Parser& p) {
     return scalar_of(p, parse_conditional(p, Angles::compare), first);
 }
 
+namespace {
+
+void tell(Expander& in, const VectorValue& value) {
+    for (const double v : value.v) pnr::tell(in, v);
+}
+
+} // namespace
+
 // ---- what the blocks ask for
 // ----------------------------------------------------------------------------------------
 
 double parse_float(Parser& p) {
     const Token first = peek(p);
-    return scalar_of(p, parse_conditional(p, Angles::bracket), first);
+    const double value = scalar_of(p, parse_conditional(p, Angles::bracket), first);
+    pnr::tell(p.in, value);
+    return value;
 }
 
 double parse_float_in(Parser& p, double low, double high, std::string_view what) {
@@ -137,6 +147,7 @@ Vec3 parse_vector(Parser& p) {
     if (value.size == 2) promote(value, 3);
     if (value.size > 3 && !value.is_color)
         fail(p, first, fmt::format("a vector of 3 components is needed here, this has {}", value.size));
+    tell(p.in, value);
     return {value.v[0], value.v[1], value.v[2]};
 }
 
@@ -146,6 +157,7 @@ Vec2 parse_uv(Parser& p) {
     promote(value, 2);
     if (value.size > 2)
         fail(p, first, fmt::format("a vector of 2 components is needed here, this has {}", value.size));
+    tell(p.in, value);
     return {value.v[0], value.v[1]};
 }
 
@@ -154,6 +166,7 @@ ColorFT parse_color(Parser& p) {
     VectorValue value = at_color(p) ? color_expression(p) : parse_conditional(p, Angles::bracket);
     parse_channels(p, value); // White filter 0.9
     promote(value, 5);
+    tell(p.in, value);
     const double largest = std::max({value.v[0], value.v[1], value.v[2]});
     if (largest > 10 && !p.in.blocks.empty() && p.in.blocks.back().what == "pigment")
         warn(p, first, fmt::format("a surface's colour goes from 0 to 1, this has {}", largest),

@@ -335,7 +335,9 @@ bool at_string(Parser& p) {
     return is_keyword(token.symbol) && is_string_builtin(static_cast<Keyword>(token.symbol));
 }
 
-std::string parse_string(Parser& p) {
+namespace {
+
+std::string string_value(Parser& p) {
     const Token token = peek(p);
     if (token.kind == TokenKind::string) {
         next(p);
@@ -360,6 +362,14 @@ std::string parse_string(Parser& p) {
     }
     fail(p, token, fmt::format("expected a string, found {}", token_text(p, token)),
          "strings stand in quotes: \"text\"; str(number, 0, 3) makes one of a number");
+}
+
+} // namespace
+
+std::string parse_string(Parser& p) {
+    std::string text = string_value(p);
+    if (p.in.telling) tell(p.in, std::uint64_t{std::hash<std::string>{}(text)});
+    return text;
 }
 
 // ---- values of any kind

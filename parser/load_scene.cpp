@@ -51,9 +51,10 @@ void declare_givens(Parser& p) {
     declare_number(p, "frame_number", options.frame_number);
     declare_number(p, "initial_frame", options.initial_frame);
     declare_number(p, "final_frame", options.final_frame);
-    declare_number(p, "initial_clock", 0);
-    declare_number(p, "final_clock", steps > 0 ? 1 : 0);
-    declare_number(p, "clock_delta", steps > 0 ? 1.0 / steps : 0);
+    declare_number(p, "initial_clock", options.initial_clock);
+    declare_number(p, "final_clock", options.final_clock);
+    const double length = options.final_clock - options.initial_clock;
+    declare_number(p, "clock_delta", steps > 0 ? length / steps : length);
     declare_number(p, "image_width", options.width.value_or(512));
     declare_number(p, "image_height", options.height.value_or(512));
     assign(p, p.in.words.intern("input_file_name"), Value{p.scene.file}, false);
@@ -113,6 +114,7 @@ LoadResult load_scene_text(std::string text, const std::string& name, const Load
         scene = {}; // make room for the message
         say_memory_ran_out(in);
     }
+    result.world_hash = in.told;
     result.debug_output = std::move(in.debug_output);
     if (in.errors > 0) return result;
     scene.hash = hash_of(result.sources, options);

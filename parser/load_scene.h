@@ -23,8 +23,8 @@ struct LoadOptions {
     std::vector<std::pair<std::string, std::string>>
         declares;                     // -D NAME=EXPR, evaluated before the first line
     std::optional<int> width, height; // for image_width, image_height
-    double clock = 0;
-    int frame_number = 0, initial_frame = 0, final_frame = 0; // of a single picture: 0
+    double clock = 0, initial_clock = 0, final_clock = 0;     // of a single picture: 0
+    int frame_number = 0, initial_frame = 0, final_frame = 0; // likewise
     Budgets budgets;
     std::filesystem::path allow_write; // files that #fopen writes land below it; empty: they stay in memory
 };
@@ -35,6 +35,8 @@ struct LoadResult {
     Sources sources; // the texts that diagnostics point into
     std::vector<Diagnostic> diagnostics;
     std::string debug_output; // #debug text, in order
+    // Of all that was said but the cameras, after evaluation: two runs with the same one describe the same world.
+    std::uint64_t world_hash = 0;
 };
 
 LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& options);

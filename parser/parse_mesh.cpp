@@ -540,6 +540,8 @@ Shape parse_bicubic_patch(Parser& p) {
             break;
         default:
             for (Vec3& point : patch.points) point = parse_item(p);
+            constexpr std::size_t triangle_bytes = 200; // with its share of the BVH
+            charge(p, word, (std::size_t{2} << (patch.u_steps + patch.v_steps)) * triangle_bytes);
             return patch;
         }
         accept_comma(p);

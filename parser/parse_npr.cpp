@@ -79,6 +79,10 @@ void parse_rbf(Parser& p, PaintWord& word) {
 void parse_seeds(Parser& p, PaintWord& word) {
     word.style.seeds.clear();
     block(p, "seeds", [&] {
+        constexpr std::size_t most = 10'000;
+        const Token word_token = peek(p);
+        if (word.style.seeds.size() >= most)
+            fail(p, word_token, fmt::format("an object has at most {} seeds", most));
         if (accept(p, "seed"_kw))
             word.style.seeds.push_back(parse_seed(p));
         else if (accept(p, "rbf"_kw))

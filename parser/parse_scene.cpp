@@ -74,6 +74,7 @@ void add_light(Parser& p, const Token& word, LightSource light) {
 }
 
 void parse_camera_item(Parser& p) {
+    const Untold untold(p.in);
     p.scene.camera = parse_camera(p);
     p.scene.has_camera = true;
 }
@@ -201,9 +202,11 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
     case "light_source"_kw:
         next(p);
         return parse_light_source(p);
-    case "camera"_kw:
+    case "camera"_kw: {
         next(p);
+        const Untold untold(p.in);
         return parse_camera(p);
+    }
     case "sky_sphere"_kw:
         next(p);
         return parse_sky_sphere(p);

@@ -39,6 +39,7 @@ struct Parser {
     // What inside() and trace() have built; the objects are kept, so that no other takes their place.
     std::map<std::shared_ptr<const DeclaredBlock>, std::shared_ptr<const Probe>> probes{};
     bool noise_said = false; // global_settings { noise_generator }
+    std::map<std::shared_ptr<const DeclaredBlock>, std::optional<Bounds>> extents{}; // min_extent, max_extent
     PatternAssets pattern_assets{}; // of functions, which are evaluated while the scene is read
 };
 

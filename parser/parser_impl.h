@@ -17,6 +17,7 @@ inline Token next(Parser& p) {
     if (token.kind == TokenKind::end) return token; // the end is never taken
     p.in.buffered = false;
     ++p.in.tokens_taken;
+    if (token.kind != TokenKind::number) tell(p.in, std::uint64_t{token.symbol} << 8 | static_cast<unsigned>(token.kind));
     if (token.kind == TokenKind::punctuation) {
         if (token.symbol == '{')
             ++p.in.brace_depth;
