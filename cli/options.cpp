@@ -210,7 +210,10 @@ void add_others(CLI::App& parent, Options& options, Words& words, std::optional<
     check.add_option("SCENE", options.scenes, "Scene files; - reads standard input")->required();
     add_scene_options(check, options, words);
     add_choice(check, "--format", format, formats, "How to print what was found");
-    check.footer("Example:\n  pnr check *.pnr");
+    check.footer("--format json prints one array for all scenes. An entry has severity (error, warning, note), file, line,\n"
+                 "column, end_line, end_column (from 1, in bytes; the end is behind the last), message, help (may be \"\")\n"
+                 "and notes, an array of the same places with a message each.\n\n"
+                 "Example:\n  pnr check *.pnr");
 
     CLI::App& plan =
         *parent.add_subcommand("plan", "Say which passes and structures a scene needs, and what is left out");

@@ -144,29 +144,33 @@ void check_picture(const PictureSize& size, const Budgets& budgets) {
                                  size.width, size.height, budgets.pixels, pixels));
 }
 
-void check_photons(const Scene& scene, const World& world, const Settings& settings, const Budgets& budgets) {
-    const std::int64_t count = plan_emission(world, settings.photons).count;
-    if (count <= budgets.photons) return;
+// Where the photons will be sent, if they are not too many.
+Focus check_photons(const Scene& scene, const World& world, const Settings& settings, const Budgets& budgets) {
+    const EmissionPlan plan = plan_emission(world, settings.photons);
+    const std::int64_t count = plan.count;
+    if (count <= budgets.photons) return plan.focus;
     throw SceneError({scene.file, 0, 0},
                      fmt::format("{} photons are asked for, more than the {} that are allowed; say a smaller `count` or "
                                  "a larger `spacing`, or `--limit photons={}`",
                                  count, budgets.photons, count));
 }
 
-// Only the camera may have moved since the map was made.
-bool still_holds(const KeptPhotons& kept, std::uint64_t world_hash, const Settings& settings, const Plan& plan) {
-    const PhotonSettings &a = kept.settings.photons, &b = settings.photons;
-    return kept.valid && kept.world == world_hash && kept.settings.render.seed == settings.render.seed &&
-           a.count == b.count && a.spacing == b.spacing && kept.normals == plan.normals;
+bool same(const Focus& a, const Focus& b) { return a.center == b.center && a.radius == b.radius; }
+
+// Only the camera may have moved since the map was made. Where planes are endless, photons fall about the first
+// camera too: a later one must stand in their midst.
+bool still_holds(const KeptPhotons& kept, std::uint64_t world_hash, const Rendering& r) {
+    if (!kept.valid || kept.world != world_hash || kept.normals != r.plan.normals) return false;
+    const PhotonSettings &a = kept.settings.photons, &b = r.settings.photons;
+    if (kept.settings.render.seed != r.settings.render.seed || a.count != b.count || a.spacing != b.spacing) return false;
+    return glm::distance(r.world.camera.location, kept.focus.center) <= kept.focus.radius ||
+           same(kept.focus, plan_emission(r.world, b).focus);
 }
 
 // The map as it was before its first frame: the field's records are made where a picture needs them.
 PhotonMap take_kept(const Rendering& r, KeptPhotons& kept, Passes& passes) {
     PhotonMap map = std::move(kept.map);
-    if (map.field)
-        passes.run("kdtree", [&](const Progress& progress) {
-            map.field = make_irradiance_field(r.world, map, progress);
-        });
+    if (map.field) add_field(r, 1, map, passes);
     return map;
 }
 
@@ -193,11 +197,11 @@ Rendering render_scene(const Scene& scene, const Settings& settings, const Wishe
 
     r.world = passes.run("build", [&](const Progress&) { return build_world(scene, r.settings); });
     r.plan = make_plan(r.world, r.settings, wishes.maps);
-    const bool reuse = !wishes.refinement && still_holds(kept, world_hash, r.settings, r.plan);
+    const bool reuse = !wishes.refinement && still_holds(kept, world_hash, r);
     if (reuse)
         r.plan.left_out.push_back({"photons", "only the camera has moved since the frame before: its map is used again"});
     else if (r.plan.photons && wishes.load_photons.empty())
-        check_photons(scene, r.world, r.settings, wishes.budgets);
+        kept.focus = check_photons(scene, r.world, r.settings, wishes.budgets);
     passes.expect(expected_passes(r.plan, wishes));
     stop_gently();
     const PictureView view{r.world.camera, size.width, size.height};

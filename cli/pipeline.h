@@ -5,6 +5,7 @@
 #pragma once
 
 #include "cli/passes.h"
+#include "core/emission.h"
 #include "core/gbuffer.h"
 #include "core/photon_map.h"
 #include "core/plan.h"
@@ -46,6 +47,7 @@ struct KeptPhotons {
     std::uint64_t world = 0; // LoadResult::world_hash
     Settings settings;       // photons and the seed count
     bool normals = false;
+    Focus focus; // where its photons were sent
     PhotonMap map;
 };
 

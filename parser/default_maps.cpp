@@ -40,9 +40,9 @@ std::vector<ColorStop> default_map(const Token& word) {
     case "marble"_kw:
         return {stop(0, 0.9f, 0.8f, 0.8f), stop(0.9, 0.9f, 0.08f, 0.08f), stop(0.9, 0, 0, 0)};
     case "radial"_kw:
-        return {stop(0, 0, 1, 1), stop(1 / 3.0, 1, 1, 0), stop(2 / 3.0, 1, 0, 1), stop(1, 0, 1, 1)};
+        return {stop(0, 0, 1, 1), stop(0.333, 1, 1, 0), stop(0.666, 1, 0, 1), stop(1, 0, 1, 1)};
     case "wood"_kw:
-        return bands({{0.6, {0.666f, 0.312f, 0.2f}}, {1, {0.4f, 0.133f, 0.066f}}});
+        return bands({{0.6, {0.666f, 0.312f, 0.2f}}, {1, {0.4f, 0.1333f, 0.066f}}});
     default:
         return {stop(0, 0, 0, 0), stop(1, 1, 1, 1)};
     }

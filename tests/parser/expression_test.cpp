@@ -237,6 +237,7 @@ TEST(Expression, Givens) { // of a single picture, as POV-Ray has them
     frame.frame_number = 2;
     frame.initial_frame = 1;
     frame.final_frame = 5;
+    frame.final_clock = 1;
     EXPECT_EQ(
         run("#debug vstr(5, <clock, clock_delta, clock_on, frame_number, final_clock>, \" \", 0, 2)", frame),
         "0.25 0.25 1.00 2.00 1.00");

@@ -99,6 +99,43 @@ TEST(Limits, Memory) {
     EXPECT_EQ(run("#for (I, 1, 1000) #declare A = array[100000]; #end"), "");
 }
 
+// What else would hang or fill the machine: each ends at a place.
+TEST(Limits, Bombs) {
+    LoadOptions options = small();
+    options.budgets.bytes = 50'000'000;
+    const std::pair<std::string, std::string> bombs[] = {
+        {"a macro that doubles",
+         "#macro A() sphere { 0, 1 } #end #macro B() A() A() #end #macro C() B() B() C() #end C()"},
+        {"files that include themselves",
+         "#fopen F \"w\" write #write (F, \"#include \\\"w\\\"\") #fclose F #include \"w\""},
+        {"files that grow", "#while (1) #fopen F \"w\" append #write (F, \"#declare Q = 1;\n\") #fclose F #include \"w\" #end"},
+        {"a #for that starts again", "#for (I, 0, 10) #declare I = 0; #end"},
+        {"streams of random numbers", "#while (1) #declare R = seed(1); #end"},
+        {"lights", "#while (1) light_source { 5, rgb 1 } #end"},
+        {"extents", "#declare O = union { sphere { 0, 1 } sphere { x, 1 } } #while (1) #declare E = min_extent(O); #end"},
+        {"functions that call each other twice",
+         "#declare F = function(x) { x }; #while (1) #declare F = function(x) { F(F(x)) }; #end"},
+        {"a count that the text cannot hold", "mesh2 { vertex_vectors { 1000000000, <0, 0, 0>, <1, 0, 0> } }"},
+        {"patches", "#while (1) bicubic_patch { type 1 u_steps 8 v_steps 8 " + repeated("<1, 2, 3>, ", 16) + "} #end"},
+    };
+    for (const auto& [name, text] : bombs) EXPECT_NE(first_error(text, options), "") << name;
+}
+
+TEST(Limits, TextsOfOtherKinds) {
+    using namespace std::string_literals;
+    EXPECT_EQ(first_error("\xff\xfes\0p\0h\0"s), "test.pnr:1:1: error: this file is UTF-16: scenes are plain text in UTF-8 or ASCII");
+    EXPECT_EQ(first_error("\x89PNG\r\n\x1a\n"s), "test.pnr:1:1: error: this file is no text at all: scenes are plain text in UTF-8 or ASCII");
+    EXPECT_NE(first_error("sphere { 0, \0 1 }"s), "");
+    const std::string scene = "// a comment\nsphere { 0, 1 }\n#debug \"read\"\n";
+    for (const char* end : {"\n", "\r\n", "\r"}) {
+        std::string text = "\xef\xbb\xbf";
+        for (const char c : scene) text += c == '\n' ? std::string(end) : std::string(1, c);
+        EXPECT_EQ(run(text), "read") << (end[1] == 0 ? "one byte" : "two");
+    }
+    // A place counts lines by any of the three.
+    EXPECT_EQ(first_error("// a\r#declare A = ;\r").substr(0, 12), "test.pnr:2:1");
+}
+
 TEST(Limits, Includes) {
     const fs::path folder = fs::path(testing::TempDir()) / "pnr_limits";
     fs::create_directories(folder);
