@@ -144,6 +144,7 @@ bool take(Query& q, const TriangleBlock<B>& block, int lane) {
     if (q.calls.sees && !q.calls.sees(q.calls.context, number, t)) return false;
     q.hit.t = t;
     q.hit.primitive = q.hit.triangle = number;
+    q.hit.corners = &block.corner[0][0][lane];
     q.found_t();
     return true;
 }
