@@ -382,6 +382,7 @@ TEST(BuildBvh, DoesNotDependOnTheThreads) {
     }
     ASSERT_EQ(trees[0].tree.size(), trees[1].tree.size());
     EXPECT_EQ(std::memcmp(trees[0].view.tree, trees[1].view.tree, trees[0].tree.size() * line_size), 0);
+    EXPECT_EQ(trees[0].tree.size(), trees[0].tree.capacity()) << "it was not moved while it grew";
     EXPECT_LE(static_cast<double>(trees[0].bytes) / static_cast<double>(trees[0].triangle_count), 120.0);
 }
 
