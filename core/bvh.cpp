@@ -21,7 +21,7 @@ namespace {
 
 using Four = Lanes<4>;
 
-constexpr int bins = 16;
+constexpr int bins = 16;        // 32 take a fifth longer to build, and no ray is faster
 constexpr int sah_depth = 40;   // deeper than this, ranges are halved: bounds the depth, and so the stack
 constexpr float step_cost = 1;  // of visiting a node ...
 constexpr float block_cost = 1; // ... and a block, in the same unit
