@@ -47,6 +47,7 @@ struct KernelHit {
     std::uint32_t primitive = no_primitive; // smaller wins at equal t
     std::uint32_t item = 0; // of primitives that are no triangle of this BVH: as the callback likes
     std::uint32_t triangle = no_primitive; // of this BVH, or as the callback likes
+    const float* corners = nullptr;        // of a triangle of this BVH: nine numbers, block_size apart
 };
 
 struct BvhView {

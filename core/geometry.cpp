@@ -112,7 +112,7 @@ bool meets_instance(const Trace& trace, const Other& other, const KernelRay& ray
     if (found.primitive == no_primitive) return false;
     const double t = own.from_kernel(found.t);
     if (!(t > ray.t_min) || !better(t, other.first_primitive + found.triangle, hit)) return false;
-    hit = {t, other.first_primitive + found.triangle, other.item, found.triangle};
+    hit = {t, other.first_primitive + found.triangle, other.item, found.triangle, nullptr};
     return true;
 }
 
@@ -221,7 +221,7 @@ bool is_seen(const Geometry& g, std::uint32_t item, Vec3 p, Vec3 normal) {
 std::span<const GeometryItem> geometry_items(const Geometry& geometry) { return geometry.items; }
 
 std::optional<Hit> closest_hit(const Geometry& g, const Ray& ray, RayKind kind) {
-    const Prepared prepared = prepare(ray.origin, ray.direction, ray.t_min, ray.t_max, g.scale);
+    Prepared prepared = prepare(ray.origin, ray.direction, ray.t_min, ray.t_max, g.scale);
     Trace trace{g, ray, ray_bit(kind), prepared};
     // Unbounded shapes are met in world units: a ray that starts far away is not cut for them.
     KernelHit hit;
@@ -230,12 +230,13 @@ std::optional<Hit> closest_hit(const Geometry& g, const Ray& ray, RayKind kind) 
         if (!(g.items[g.unbounded[i]].hidden_from & trace.bit))
             meets_shape(trace, g.unbounded[i], g.unbounded_primitive[i], hit);
     if (!prepared.misses) {
-        KernelRay kernel_ray = prepared.ray;
-        kernel_ray.t_max = std::min(kernel_ray.t_max, std::nextafter(hit.t, infinity));
-        closest(g.bvh, kernel_ray, calls_for(trace), hit);
+        prepared.ray.t_max = std::min(prepared.ray.t_max, std::nextafter(hit.t, infinity));
+        closest(g.bvh, prepared.ray, calls_for(trace), hit);
     }
-    if (hit.primitive == no_primitive) return std::nullopt;
-    return finish(g, ray, prepared, trace, hit);
+    // Made in its place: a copy would wait for what has just been stored number by number.
+    std::optional<Hit> found;
+    if (hit.primitive != no_primitive) finish(g, ray, prepared, trace, hit, found.emplace());
+    return found;
 }
 
 bool is_occluded(const Geometry& g, const Ray& ray, RayKind kind) {

@@ -194,6 +194,8 @@ struct GeometryBuilder {
         const MeshData& mesh = *mesh_of(item)->data;
         g.placed_items.push_back(index);
         g.placed_first.push_back(static_cast<std::uint32_t>(corners.size() / 9));
+        const bool mirrored = glm::determinant(glm::dmat3(item.to_world.matrix)) < 0;
+        g.placed_side.push_back(mirrored != item.inverse ? -1 : 1);
         std::vector<Vec3f> placed;
         placed.reserve(mesh.positions.size());
         for (const Vec3f& p : mesh.positions)

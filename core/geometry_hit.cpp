@@ -18,11 +18,12 @@ struct Corners {
     Vec3 a, b, c;
 };
 
-// The shares of the corners at the point of the triangle closest to p, about.
-Vec3 barycentric(const Corners& t, Vec3 p) {
-    const Vec3 e = t.b - t.a, f = t.c - t.a, n = glm::cross(e, f), q = p - t.a;
-    const double n2 = glm::dot(n, n);
-    double b = glm::dot(glm::cross(q, f), n) / n2, c = glm::dot(glm::cross(e, q), n) / n2;
+// The shares of the corners at the point of the triangle closest to p, about; e and f are its sides from the
+// first corner, n their cross product.
+Vec3 barycentric(const Corners& t, Vec3 e, Vec3 f, Vec3 n, Vec3 p) {
+    const Vec3 q = p - t.a;
+    const double share = 1 / glm::dot(n, n);
+    double b = glm::dot(glm::cross(q, f), n) * share, c = glm::dot(glm::cross(e, q), n) * share;
     if (!std::isfinite(b) || !std::isfinite(c)) return {1, 0, 0};
     b = std::clamp(b, 0.0, 1.0);
     c = std::clamp(c, 0.0, 1 - b);
@@ -46,42 +47,39 @@ void mix_corners(const GeometryItem& item, const std::array<std::uint32_t, 3>& n
     hit.surface = hit.mixed[0];
 }
 
-// `corners` are in the space that `to_world` takes to the world; p is about the hit, in that space.
+void blend_normals(const GeometryItem& item, const MeshData& mesh, std::uint32_t number, Vec3 weights,
+                   Hit& hit) {
+    const Vec3 blended(blend(mesh.normal_triangles[number], mesh.normals, weights));
+    const Vec3 shading = transform_normal(item.to_world, blended);
+    const double length = glm::length(shading);
+    if (length > 0) hit.shading_normal = (glm::dot(shading, hit.normal) < 0 ? -1.0 : 1.0) * shading / length;
+}
+
+// `corners` are in the space that `to_world` takes to the world (null: the world itself); p is about the hit,
+// in that space. `side` is 1 where their winding is that of the outside, else -1.
 void finish_mesh_hit(const GeometryItem& item, std::uint32_t number, const Corners& corners,
-                     const Transform& to_world, Vec3 p, Hit& hit) {
+                     const Transform* to_world, double side, Vec3 p, Hit& hit) {
     const MeshData& mesh = *mesh_of(item)->data;
-    const Vec3 weights = barycentric(corners, p);
     const Vec3 e = corners.b - corners.a, f = corners.c - corners.a, n = glm::cross(e, f);
-    const Vec3 own = corners.a + weights.y * e + weights.z * f;
-    hit.position = transform_point(to_world.matrix, own);
-    const bool mirrored = glm::determinant(glm::dmat3(item.to_world.matrix)) < 0;
-    // The corners' own space is either the mesh's, or the world: there a mirror has turned the winding round.
-    const bool in_world = &to_world != &item.to_world;
-    const double side = (in_world && mirrored) != item.inverse ? -1 : 1;
-    hit.normal = side * glm::normalize(transform_normal(to_world, n / largest(n)));
-    hit.shading_normal = hit.normal;
-    if (!mesh.normals.empty()) {
-        const Vec3 blended(blend(mesh.normal_triangles[number], mesh.normals, weights));
-        const Vec3 shading = transform_normal(item.to_world, blended);
-        const double length = glm::length(shading);
-        if (length > 0)
-            hit.shading_normal = (glm::dot(shading, hit.normal) < 0 ? -1.0 : 1.0) * shading / length;
-    }
-    if (!mesh.uvs.empty()) hit.uv = Vec2(blend(mesh.uv_triangles[number], mesh.uvs, weights));
-    if (!mesh.texture_triangles.empty()) mix_corners(item, mesh.texture_triangles[number], weights, hit);
+    const Vec3 weights = barycentric(corners, e, f, n, p);
     // Rounding of the corners' sum and of the plane that rays are cut with, whose normal is the worse the
     // thinner the triangle is; then of the way to the world.
     const double size = std::max({largest(corners.a), largest(corners.b), largest(corners.c)});
-    const double sides = std::max(largest(e), largest(f));
-    const double own_error = 0x1p-48 * size + 0x1p-50 * sides * (sides * sides / largest(n));
-    if (in_world) {
-        hit.error = own_error;
-        return;
+    const double sides = std::max(largest(e), largest(f)), height = largest(n);
+    hit.error = 0x1p-48 * size + 0x1p-50 * sides * (sides * sides / height);
+    hit.position = corners.a + weights.y * e + weights.z * f;
+    Vec3 normal = n / height;
+    if (to_world) {
+        normal = transform_normal(*to_world, normal);
+        hit.position = transform_point(to_world->matrix, hit.position);
+        double stretch = 0;
+        for (int k = 0; k < 3; ++k) stretch += largest(Vec3(to_world->matrix[k]));
+        hit.error = 2 * stretch * hit.error + 0x1p-48 * (stretch * size + largest(Vec3(to_world->matrix[3])));
     }
-    double stretch = 0, shift = 0;
-    for (int k = 0; k < 3; ++k) stretch += largest(Vec3(to_world.matrix[k]));
-    shift = largest(Vec3(to_world.matrix[3]));
-    hit.error = 2 * stretch * own_error + 0x1p-48 * (stretch * size + shift);
+    hit.normal = hit.shading_normal = side * glm::normalize(normal);
+    if (!mesh.normals.empty()) blend_normals(item, mesh, number, weights, hit);
+    if (!mesh.uvs.empty()) hit.uv = Vec2(blend(mesh.uv_triangles[number], mesh.uvs, weights));
+    if (!mesh.texture_triangles.empty()) mix_corners(item, mesh.texture_triangles[number], weights, hit);
 }
 
 // The largest three shares of a blob's components; those without a texture show the object's.
@@ -115,29 +113,29 @@ void finish_shape_hit(const Geometry& g, const Ray& ray, const ShapeHit& shape_h
         mix_parts(hit, item, blob_shares(*blob->data, transform_point(item.to_world.inverse, hit.position)));
 }
 
-static const Transform in_place;
-
-Hit finish_hit(const Geometry& g, const Ray& ray, const Prepared& prepared, const Trace& trace,
-               const KernelHit& found) {
-    Hit hit;
+void finish_hit(const Geometry& g, const Ray& ray, const Prepared& prepared, const Trace& trace,
+                const KernelHit& found, Hit& hit) {
     hit.t = prepared.from_kernel(found.t);
     hit.primitive = found.primitive;
     if (found.triangle == no_primitive) {
         hit.t = trace.shape_hit.t;
         hit.surface = hit.leaf = found.item;
         finish_shape_hit(g, ray, trace.shape_hit, hit);
-        return hit;
+        return;
     }
     const Vec3 p = ray.origin + hit.t * ray.direction;
     if (found.primitive < g.stats.placed_triangles) {
         const std::size_t placed = placed_index(g, found.triangle);
-        float v[9];
-        g.bvh.triangles->corners(found.triangle, v);
-        const Corners corners{Vec3(v[0], v[1], v[2]) / g.scale, Vec3(v[3], v[4], v[5]) / g.scale,
-                              Vec3(v[6], v[7], v[8]) / g.scale};
+        // From the block that the ray has just met: CGAL's triangles are seldom in the cache.
+        const auto stride = static_cast<std::size_t>(g.bvh.kernel->block_size);
+        const double back = 1 / g.scale; // exact
+        const auto corner = [&](std::size_t v) {
+            const float* x = found.corners + 3 * v * stride;
+            return back * Vec3(x[0], x[stride], x[2 * stride]);
+        };
         hit.surface = hit.leaf = g.placed_items[placed];
-        finish_mesh_hit(g.items[hit.leaf], found.triangle - g.placed_first[placed], corners, in_place, p,
-                        hit);
+        finish_mesh_hit(g.items[hit.leaf], found.triangle - g.placed_first[placed],
+                        {corner(0), corner(1), corner(2)}, nullptr, g.placed_side[placed], p, hit);
     } else {
         hit.surface = hit.leaf = found.item;
         const GeometryItem& item = g.items[found.item];
@@ -145,10 +143,9 @@ Hit finish_hit(const Geometry& g, const Ray& ray, const Prepared& prepared, cons
         const auto& t = mesh.triangles[found.triangle];
         const Corners corners{Vec3(mesh.positions[t[0]]), Vec3(mesh.positions[t[1]]),
                               Vec3(mesh.positions[t[2]])};
-        finish_mesh_hit(item, found.triangle, corners, item.to_world,
+        finish_mesh_hit(item, found.triangle, corners, &item.to_world, item.inverse ? -1 : 1,
                         transform_point(item.to_world.inverse, p), hit);
     }
-    return hit;
 }
 
 } // namespace
@@ -169,16 +166,15 @@ double shape_hit_error(const Geometry& g, std::uint32_t index, const Ray& ray, c
     return std::max(0x1p-47 * size, stretch * hit.error);
 }
 
-Hit finish(const Geometry& g, const Ray& ray, const Prepared& prepared, const Trace& trace,
-           const KernelHit& found) {
-    Hit hit = finish_hit(g, ray, prepared, trace, found);
+void finish(const Geometry& g, const Ray& ray, const Prepared& prepared, const Trace& trace,
+            const KernelHit& found, Hit& hit) {
+    finish_hit(g, ray, prepared, trace, found, hit);
     if (const std::uint32_t leaf = g.csg.leaf_of_item[hit.leaf]; leaf != no_csg)
         if (const std::uint32_t shown = csg_textured_item(g.csg, leaf, hit.position, solids_of(g));
             shown != hit.leaf) {
             hit.surface = shown;
             hit.shares = Vec3f(0);
         }
-    return hit;
 }
 
 } // namespace pnr

@@ -36,6 +36,7 @@ struct Geometry {
     std::vector<Other> others;
     std::vector<std::uint32_t> placed_items,
         placed_first; // meshes in the scene's own BVH, and their first triangles
+    std::vector<double> placed_side; // -1 where their winding is not the outside's: a mirror, or an inverse
     std::vector<std::uint32_t> unbounded, unbounded_primitive;
     std::uint8_t hidden_from = 0; // of all items together
     GeometryStats stats;
@@ -71,8 +72,8 @@ struct Trace {
     ShapeHit shape_hit{};
 };
 
-Hit finish(const Geometry& g, const Ray& ray, const Prepared& prepared, const Trace& trace,
-           const KernelHit& found);
+void finish(const Geometry& g, const Ray& ray, const Prepared& prepared, const Trace& trace,
+            const KernelHit& found, Hit& hit);
 
 // Which placed mesh a triangle of the scene's own BVH belongs to: an index into placed_items.
 std::size_t placed_index(const Geometry& g, std::uint32_t triangle);

@@ -298,6 +298,81 @@ TEST_P(LibraryMesh, DoesNotLeak) {
 INSTANTIATE_TEST_SUITE_P(Closed, LibraryMesh, testing::Values("bunny_closed_59664", "slivers_21004"),
                          [](const auto& param) { return std::string(param.param); });
 
+struct Asked {
+    std::vector<int> times; // by triangle
+};
+bool refuse(const void* context, std::uint32_t triangle, double) {
+    ++static_cast<Asked*>(const_cast<void*>(context))->times[triangle];
+    return false; // and go on
+}
+
+// The callback sees every triangle on the line, each once: also those of blocks that are not full. That is
+// how insides are counted.
+TEST(Bvh, EachTriangleOnTheWayIsAskedAboutOnce) {
+    for (const BvhKernel* kernel : available_kernels())
+        for (std::size_t n = 1; n <= 20; ++n) {
+            Triangles stack;
+            for (std::size_t i = 0; i < n; ++i) {
+                const float z = static_cast<float>(i) / 32;
+                add_triangle(stack, {-1, -1, z}, {1, -1, z}, {0, 1, z});
+            }
+            const Bvh bvh = build_bvh(stack, {}, *kernel);
+            const KernelRay ray = kernel_ray({0, -0.25f, -1}, {0.01f, 0, 1});
+            for (const bool any : {false, true}) {
+                Asked asked{std::vector<int>(n)};
+                const KernelCalls calls{&asked, nullptr, &refuse};
+                KernelHit hit;
+                hit.t = infinity;
+                if (any)
+                    EXPECT_FALSE(occluded(bvh, ray, calls));
+                else
+                    closest(bvh, ray, calls, hit);
+                EXPECT_EQ(hit.primitive, no_primitive);
+                EXPECT_EQ(asked.times, std::vector<int>(n, 1)) << kernel->name << ' ' << n;
+            }
+        }
+}
+
+// A hit lies in (t_min, t_max) or it does not, to the last bit: any hit agrees with the closest one.
+TEST(Bvh, LimitsAreExact) {
+    for (const Case& c : cases()) {
+        SCOPED_TRACE(c.name);
+        for (const BvhKernel* kernel : available_kernels()) {
+            const Bvh bvh = build_bvh(c.triangles, {}, *kernel);
+            int hits = 0;
+            for (KernelRay ray : rays_at(c.triangles, 2000)) {
+                const KernelHit hit = trace(bvh, ray);
+                if (hit.primitive == no_primitive) continue;
+                ++hits;
+                ray.t_max = hit.t;
+                EXPECT_FALSE(occluded(bvh, ray, {}));
+                EXPECT_EQ(trace(bvh, ray).primitive, no_primitive);
+                ray.t_max = std::nextafter(hit.t, infinity);
+                EXPECT_TRUE(occluded(bvh, ray, {}));
+                EXPECT_EQ(trace(bvh, ray).t, hit.t);
+                ray.t_min = hit.t;
+                EXPECT_FALSE(occluded(bvh, ray, {}));
+            }
+            EXPECT_GT(hits, 200);
+        }
+    }
+}
+
+// What a hit says of its triangle's corners is what was given.
+TEST(Bvh, HitsCarryTheirCorners) {
+    for (const Case& c : cases())
+        for (const BvhKernel* kernel : available_kernels()) {
+            const Bvh bvh = build_bvh(c.triangles, {}, *kernel);
+            for (const KernelRay& ray : rays_at(c.triangles, 500)) {
+                const KernelHit hit = trace(bvh, ray);
+                if (hit.primitive == no_primitive) continue;
+                for (std::size_t i = 0; i < 9; ++i)
+                    EXPECT_EQ(hit.corners[i * static_cast<std::size_t>(kernel->block_size)],
+                              c.triangles[9 * hit.triangle + i]);
+            }
+        }
+}
+
 TEST(BuildBvh, DoesNotDependOnTheThreads) {
     const Triangles triangles = sphere(300, 400); // enough for parallel work
     std::vector<Bvh> trees;
@@ -307,7 +382,34 @@ TEST(BuildBvh, DoesNotDependOnTheThreads) {
     }
     ASSERT_EQ(trees[0].tree.size(), trees[1].tree.size());
     EXPECT_EQ(std::memcmp(trees[0].view.tree, trees[1].view.tree, trees[0].tree.size() * line_size), 0);
+    EXPECT_EQ(trees[0].tree.size(), trees[0].tree.capacity()) << "it was not moved while it grew";
     EXPECT_LE(static_cast<double>(trees[0].bytes) / static_cast<double>(trees[0].triangle_count), 120.0);
+}
+
+// Boxes without a surface, or all alike, in any number: whatever the costs come to, each is met.
+TEST(BuildBvh, FlatBoxesOfOthersAreMet) {
+    struct Count {
+        std::vector<int> times;
+    };
+    for (const BvhKernel* kernel : available_kernels())
+        for (std::size_t n = 1; n < 40; ++n) {
+            std::vector<FloatBox> points(n, FloatBox{{0.25f, 0.25f, 0.5f}, {0.25f, 0.25f, 0.5f}});
+            for (std::size_t i = 0; i < n; i += 2)
+                points[i].low[2] = points[i].high[2] = 0.01f * static_cast<float>(i);
+            Count count{std::vector<int>(n)};
+            const KernelCalls calls{
+                &count,
+                [](const void* context, std::uint32_t index, const KernelRay&, KernelHit&) {
+                    ++static_cast<Count*>(const_cast<void*>(context))->times[index];
+                    return false;
+                },
+                nullptr};
+            KernelHit hit;
+            hit.t = infinity;
+            closest(build_bvh({}, points, *kernel), kernel_ray({0.25f, 0.25f, -1}, {0, -0.0f, 1}), calls,
+                    hit);
+            EXPECT_EQ(count.times, std::vector<int>(n, 1)) << kernel->name << ' ' << n;
+        }
 }
 
 TEST(BuildBvh, NothingAndOneAreTrees) {

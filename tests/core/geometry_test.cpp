@@ -38,7 +38,7 @@ std::shared_ptr<const MeshData> ball(int rows, int columns, bool smooth) {
 
 GeometryItem item_of(std::shared_ptr<const MeshData> mesh, const Transform& place) {
     GeometryItem item;
-    item.form = Shape(Mesh{.data = std::move(mesh), .file = {}, .said_at = {}});
+    item.form = Shape(Mesh{.data = std::move(mesh), .file = {}, .inside_vector = {}, .said_at = {}});
     item.to_world = place;
     return item;
 }
@@ -144,6 +144,37 @@ TEST(Geometry, MirrorsKeepTheOutside) {
 }
 
 // Rays from a million radii away, and those with a negative t_min, see what nearer ones see.
+// A scene and its rays, larger or smaller by powers of two, are the same to the last bit.
+TEST(Geometry, SizeChangesNoBit) {
+    const auto mesh = ball(40, 60, false);
+    const auto scene = [&](double size) {
+        const auto sized = std::make_shared<MeshData>(*mesh);
+        for (Vec3f& p : sized->positions) p *= static_cast<float>(size);
+        GeometryItem plain = item_of(sized, {}), sphere;
+        sphere.form = Shape(Sphere{Vec3(2 * size, 0, 0), 0.75 * size});
+        return make_geometry({plain, sphere});
+    };
+    const auto one = scene(1);
+    for (const double size : {0x1p-20, 0x1p20, 0x1p-50, 0x1p50}) {
+        const auto other = scene(size);
+        Rng rng = make_rng(7, Pass::test, 0);
+        int hits = 0;
+        for (int i = 0; i < 2000; ++i) {
+            const Vec3 from = random_point(rng, 3), way = random_point(rng, 1) - 0.3 * from;
+            const auto a = closest_hit(*one, {from, way, 0, infinity}, RayKind::camera),
+                       b = closest_hit(*other, {size * from, way, 0, infinity}, RayKind::camera);
+            ASSERT_EQ(a.has_value(), b.has_value()) << size;
+            if (!a) continue;
+            ++hits;
+            EXPECT_EQ(a->primitive, b->primitive);
+            EXPECT_EQ(a->t * size, b->t);
+            EXPECT_EQ(a->position * size, b->position);
+            EXPECT_EQ(a->normal, b->normal);
+        }
+        EXPECT_GT(hits, 500);
+    }
+}
+
 TEST(Geometry, RaysMayStartAnywhere) {
     GeometryItem sphere;
     sphere.form = Shape(Sphere{{0, 0, 0}, 1});
