@@ -62,10 +62,13 @@ void apply_quality(RenderSettings& render, Quality quality) {
         render.samples_min = 1;
         render.samples_max = 4;
         render.shadow_samples = 4;
+        render.grid.depth = 0;
     } else if (quality == Quality::high) {
         render.samples_min = 16;
         render.samples_max = 64;
         render.shadow_samples = 64;
+        render.grid.depth = 5;
+        render.grid.threshold = 0.1;
     }
 }
 
@@ -146,8 +149,11 @@ Settings merge_settings(const Settings& scene, const Options& options) {
     if (options.integrator) render.integrator = *options.integrator;
     if (options.antialias) {
         render.contrast = *options.antialias;
-        if (*options.antialias <= 0) render.samples_min = render.samples_max = 1;
+        render.grid.threshold = *options.antialias;
+        if (*options.antialias <= 0) render.samples_min = render.samples_max = 1, render.grid.depth = 0;
     }
+    if (options.antialias_depth && render.grid.depth > 0) render.grid.depth = *options.antialias_depth;
+    if (options.antialias_jitter) render.grid.jitter = *options.antialias_jitter;
     if (!options.prune) render.prune = false;
     return settings;
 }

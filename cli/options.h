@@ -59,6 +59,8 @@ struct Options {
     std::optional<Quality> quality;
     std::optional<Integrator> integrator;
     std::optional<double> antialias; // POV-Ray's +A threshold; 0: one sample a pixel
+    std::optional<int> antialias_depth;     // +R: its grid's side
+    std::optional<double> antialias_jitter; // +J: how far its points stray, 1 at most
     std::filesystem::path maps, stats, save_photons, load_photons; // empty: not asked for
     std::vector<std::string> aovs;
     std::optional<double> time_s, error; // --time, --error (a fraction)

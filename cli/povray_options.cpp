@@ -23,10 +23,10 @@ struct Switch {
 constexpr Switch switches[] = {{"WT", "--threads"}, {"W", "-W"}, {"H", "-H"},     {"O", "-o"},
                                {"L", "-L"},         {"I", ""},   {"K", "--clock"}};
 // Those that mean nothing here, with or without a value: display, pauses, messages, buffers, alpha, file
-// types, jitter.
+// types.
 constexpr const char* meaningless[] = {"UA", "UD", "UL", "UO", "UR", "UV", "AM", "BP", "BS", "GA", "GD",
                                        "GF", "GI", "GP", "GR", "GS", "GW", "HI", "MB", "MV", "RP", "SP",
-                                       "EP", "XM", "B",  "C",  "D",  "F",  "J",  "P",  "R",  "V",  "X"};
+                                       "EP", "XM", "B",  "C",  "D",  "F",  "P",  "V",  "X"};
 
 // An animation's frames and clock, said apart (+KFI, +KFF, +SF, +EF, +KI, +KF, +KC).
 struct Frames {
@@ -98,6 +98,11 @@ void translate_plus(const std::string& argument, Frames& frames, std::vector<std
     } else if (starts_with_letters(argument, "A") && !starts_with_letters(argument, "AM")) {
         const std::string threshold = value_after("A");
         ours.insert(ours.end(), {"--antialias", threshold.empty() ? "0.3" : threshold});
+    } else if (starts_with_letters(argument, "R") && !starts_with_letters(argument, "RP")) {
+        ours.insert(ours.end(), {"--antialias-depth", value_after("R")});
+    } else if (starts_with_letters(argument, "J")) {
+        const std::string amount = value_after("J");
+        ours.insert(ours.end(), {"--antialias-jitter", amount.empty() ? "1" : amount});
     } else {
         for (const Switch& known : switches) {
             if (!starts_with_letters(argument, known.letters)) continue;
@@ -143,6 +148,10 @@ bool translate_setting(const std::string& argument, Frames& frames, std::vector<
 bool translate_minus(const std::string& argument, std::vector<std::string>& ours) {
     if (argument == "-A") {
         ours.insert(ours.end(), {"--antialias", "0"});
+        return true;
+    }
+    if (argument == "-J") {
+        ours.insert(ours.end(), {"--antialias-jitter", "0"});
         return true;
     }
     return argument.size() > 1 && argument[0] == '-' && argument != "-D" &&

@@ -29,6 +29,7 @@ struct PartTextures {
 struct PhotonRoles {
     std::optional<double> specular_probability, absorption_probability;
     bool target = false, reflection = false, refraction = false, collect = true; // POV-Ray's words
+    bool pass_through = false; // photons do not meet the object
 };
 
 // An `npr` word or block. Unset: the parent's word counts, and at the top level: off. The parser fills `style` when the

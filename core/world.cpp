@@ -7,6 +7,7 @@
 #include "core/mesh_repair.h"
 #include "core/pattern_assets.h"
 #include "core/probe.h"
+#include "core/scene_check.h"
 #include "core/shape_field.h"
 
 #include <algorithm>
@@ -336,6 +337,7 @@ struct Builder {
         Surface surface;
         surface.object = from.object;
         if (!from.unseen) surface.material = add_material(from);
+        if (from.photons && from.photons->pass_through) item.hidden_from |= ray_bit(RayKind::photon);
         surface.no_shadow = from.no_shadow;
         surface.no_image = from.no_image;
         surface.no_reflection = from.no_reflection;
@@ -475,22 +477,6 @@ Illumination choose_illumination(const Scene& scene, const World& world, const P
     return photons.wanted ? Illumination::caustics : Illumination::raytraced;
 }
 
-// How many solids without `hollow` hold a point.
-int solids_about(const std::vector<Object>& objects, Vec3 point, bool hollow) {
-    int count = 0;
-    for (const Object& object : objects) {
-        if (hollow || object.hollow) continue;
-        if (is_plain_union(object)) {
-            count += solids_about(object.children, point, false);
-            continue;
-        }
-        const Bounds box = object_bounds(object);
-        const bool near = glm::all(glm::lessThanEqual(box.low, point)) && glm::all(glm::lessThanEqual(point, box.high));
-        if ((near || object.inverse) && is_inside(*make_probe(object), point)) ++count;
-    }
-    return count;
-}
-
 void check_lights_and_camera(const Scene& scene) {
     for (const LightSource& light : scene.lights)
         require(is_finite(light.position) && is_finite(light.point_at) && is_finite(Vec3(light.color)),
@@ -514,7 +500,8 @@ World build_world(const Scene& scene, const Settings& settings) {
     builder.append_parts();
     builder.move_to_center();
     builder.find_object_bounds(seen_bounds(builder.items, builder.solids));
-    if (!scene.atmosphere.fogs.empty()) world.camera_solids = solids_about(scene.objects, scene.camera.location, false);
+    if (!scene.atmosphere.fogs.empty())
+        world.camera_solids = static_cast<int>(solids_about(scene.objects, scene.camera.location).size());
     world.ambient_light = scene.ambient_light;
     world.irid_wavelength = scene.irid_wavelength;
     world.has_paint =

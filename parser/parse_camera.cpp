@@ -237,6 +237,10 @@ void finish_camera(Parser& p, const Token& at, SaidCamera& said) {
     const double distance = glm::length(said.look_at - camera.location);
     if (said.looks) {
         if (!(distance > 0)) fail(p, at, "`location` and `look_at` of a camera must differ");
+        if (glm::length(glm::cross(said.sky, said.look_at - camera.location)) <
+            1e-10 * glm::length(said.sky) * distance)
+            warn(p, at, "the camera looks along its `sky`: which way is up is left to chance",
+                 "give it another, for example: sky z");
         apply_look_at(camera, said.look_at, said.sky);
     }
     if (camera.projection == Projection::orthographic && (said.angle || !said.sized) && distance > 0) {

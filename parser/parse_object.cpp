@@ -383,6 +383,7 @@ Object parse_group(Parser& p, const Token& word) {
     Object group;
     const std::string what = token_text(p, word, false);
     group.combination = combination_of(word);
+    group.global_lights = !is(word, "light_group"_kw); // POV-Ray's default
     block(p, what, [&] {
         if (parse_group_child(p, group) || parse_object_modifier(p, group)) return;
         if (is(word, "light_group"_kw) && accept(p, "global_lights"_kw))
@@ -440,8 +441,7 @@ PhotonRoles parse_object_photons(Parser& p) {
             next(p), roles.collect = parse_optional_bool(p);
             return;
         case "pass_through"_kw:
-            warn_unsupported(p, next(p), "pass_through", "photons meet the object");
-            parse_optional_bool(p);
+            next(p), roles.pass_through = parse_optional_bool(p);
             return;
         default:
             unexpected(p, "photons",

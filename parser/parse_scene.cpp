@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A scene file's items, what can be declared, and what is seen to once all is read.
+#include "core/probe.h"
+#include "core/scene_check.h"
 #include "parser/blocks.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pnr {
 
@@ -127,6 +130,37 @@ void parse_scene_item(Parser& p) {
                 "bicubic_patch"_kw, "union"_kw, "background"_kw, "global_settings"_kw});
 }
 
+std::string name_of(const Object& object) {
+    const std::string what = !object.name.empty() ? object.name
+                             : object.shape       ? std::string(shape_name(*object.shape))
+                                                  : "solid";
+    return fmt::format("`{}` of line {}", what, object.said_at.line);
+}
+
+// Places inside solids: what is seen of the scene then surprises.
+void check_insides(Parser& p, const Token& end) {
+    const auto about_camera = solids_about(p.scene.objects, p.scene.camera.location);
+    for (const Object* solid : about_camera) {
+        const Bounds box = object_bounds(*solid);
+        if (!std::isfinite(glm::length(box.high - box.low))) continue;
+        warn(p, end, fmt::format("the camera is inside {}", name_of(*solid)),
+             "move it out; or, if the scene is to be seen from within, say `hollow`: fog is not seen in what is "
+             "not");
+        break;
+    }
+    for (const LightSource& light : p.scene.lights) {
+        if (light.emitter || light.shadowless) continue;
+        for (const Object* solid : solids_about(p.scene.objects, light.position)) {
+            if (!is_opaque(*solid) || std::ranges::find(about_camera, solid) != about_camera.end()) continue;
+            warn(p, end,
+                 fmt::format("the light of line {} is inside {}, which is opaque", light.said_at.line,
+                             name_of(*solid)),
+                 "move it out, or give the object `no_shadow`; `looks_like` does that");
+            break;
+        }
+    }
+}
+
 void check_whole_scene(Parser& p) {
     const Token& end = peek(p);
     if (!p.scene.has_camera)
@@ -134,6 +168,7 @@ void check_whole_scene(Parser& p) {
              "add one: camera { location <0, 2, -8> look_at <0, 1, 0> }");
     if (p.scene.lights.empty() && !p.scene.objects.empty())
         warn(p, end, "the scene has no light", "add one: light_source { <5, 10, -10>, rgb 1 }");
+    if (p.in.errors == 0) check_insides(p, end);
 }
 
 // `texture {...} texture {...}`: layers.

@@ -72,6 +72,15 @@ TEST(Options, PovRaysWayMeansRender) {
     EXPECT_EQ(o.threads, 2);
     EXPECT_EQ(o.library, std::vector<std::filesystem::path>{"inc"});
     EXPECT_EQ(parse({"render", "a.pov", "-A"}).antialias, 0);
+    EXPECT_EQ(parse({"+Ia.pov", "+A", "+R4", "+J0.5"}).antialias_depth, 4);
+    EXPECT_EQ(parse({"+Ia.pov", "+A", "+R4", "+J0.5"}).antialias_jitter, 0.5);
+    EXPECT_EQ(parse({"+Ia.pov", "+J"}).antialias_jitter, 1);
+    EXPECT_EQ(parse({"+Ia.pov", "-J"}).antialias_jitter, 0);
+    const Settings off = merge_settings({}, parse({"render", "a.pov", "-A"}));
+    EXPECT_EQ(off.render.grid.depth, 0) << "one ray a pixel of raytraced pictures too";
+    const Settings fine = merge_settings({}, parse({"+Ia.pov", "+A0.1", "+R5"}));
+    EXPECT_EQ(fine.render.grid.threshold, 0.1);
+    EXPECT_EQ(fine.render.grid.depth, 5);
 }
 
 TEST(Options, FramesAreARangeWithAStep) {

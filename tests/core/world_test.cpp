@@ -28,7 +28,9 @@ Mesh mesh_of(std::vector<Vec3f> positions, std::vector<std::array<std::uint32_t,
     auto data = std::make_shared<MeshData>();
     data->positions = std::move(positions);
     data->triangles = std::move(triangles);
-    return Mesh{.data = std::move(data), .file = {}, .said_at = {}};
+    Mesh mesh;
+    mesh.data = std::move(data);
+    return mesh;
 }
 
 Mesh tetrahedron() {

@@ -41,7 +41,7 @@ TEST(ParseScene, WarnsOfWhatIsMissing) {
     const std::string all = diagnostics_of("sphere { 0, 1 pigment { rgb 1 } }");
     EXPECT_TRUE(says(all, "warning: the scene has no camera"));
     EXPECT_TRUE(says(all, "warning: the scene has no light"));
-    EXPECT_EQ(diagnostics_of("sphere { 0, 1 pigment { rgb 1 } } camera { } light_source { y, 1 }"), "");
+    EXPECT_EQ(diagnostics_of("sphere { 0, 1 pigment { rgb 1 } } camera { location -5 * z } light_source { 2 * y, 1 }"), "");
 }
 
 TEST(ParseScene, SeveralErrorsInOneRun) {
