@@ -6,6 +6,7 @@
 // pattern_*.cpp, read it in parser/parse_pattern.cpp, and write its line into grammar/pnr.ebnf.
 #pragma once
 
+#include "core/boxed.h"
 #include "core/image.h"
 #include "core/scalar_field.h"
 #include "core/types.h"
@@ -169,7 +170,7 @@ struct Pattern {
     bool uv_mapping = false;              // the point is <u, v, 0>, and `transform` maps from there
     std::optional<Turbulence> turbulence; // said outside a warp
     std::vector<Warp> warps; // in the order of the text; those after a transform come behind a TransformWarp
-    Transform transform;     // warped space -> scene space (build_world: -> world space)
+    Seldom<Transform> transform; // warped space -> scene space (build_world: -> world space)
 };
 
 void set_kind(Pattern& pattern, PatternKind kind);

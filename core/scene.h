@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/atmosphere.h"
+#include "core/boxed.h"
 #include "core/camera.h"
 #include "core/pigment.h"
 #include "core/settings.h"
@@ -112,12 +113,12 @@ struct Object {
     std::vector<LightSource> lights;  // that stand in a union; the parser moves them to Scene::lights
     int light_group = 0;              // > 0: lit by the lights of that group, and ...
     bool global_lights = true;        // ... by those of none
-    Transform transform;              // shape's own space -> scene space
-    std::optional<Texture> texture;   // children without one use their parent's
-    std::optional<Texture> interior_texture; // of the inner side; likewise
-    std::optional<Interior> interior; // likewise
-    std::optional<PhotonRoles> photons;
-    std::optional<PaintWord> npr;
+    Seldom<Transform> transform;      // shape's own space -> scene space
+    Boxed<Texture> texture;           // children without one use their parent's
+    Boxed<Texture> interior_texture;  // of the inner side; likewise
+    Boxed<Interior> interior;         // likewise
+    Boxed<PhotonRoles> photons;
+    Boxed<PaintWord> npr;
     bool no_shadow = false, no_image = false, no_reflection = false, no_radiosity = false, hollow = false, inverse = false;
     bool double_illuminate = false;
     bool uv_mapping = false; // textures said behind it are laid by the surface's own coordinates

@@ -77,11 +77,11 @@ struct Mesh {
 // points[row * 4 + column]; flattened to triangles by u_steps and v_steps, smooth normals. The outside is the side of
 // cross(along a row, from row to row).
 struct BicubicPatch {
-    std::array<Vec3, 16> points{};
+    std::vector<Vec3> points = std::vector<Vec3>(16); // not an array: all shapes would be as large as the largest
     int u_steps = 4, v_steps = 4; // as POV-Ray: the patch is cut into 2^u_steps by 2^v_steps
     double flatness = 0;
     // Texture coordinates of the corners points[0], [3], [15] and [12]; between them they are mixed.
-    std::array<Vec2, 4> corner_uv{Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
+    std::vector<Vec2> corner_uv{Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
 };
 
 // Shapes that are given by fields (shape_field.h). What was said is shared by copies; what build_world makes of it, see

@@ -16,7 +16,7 @@ void transform_layer(TextureLayer& layer, const Transform& by) {
 
 void transform_texture(Texture& texture, const Transform& by) {
     if (!is_plain(texture)) { // what it picks from is seen in its own space
-        transform_pattern(texture.pattern, by);
+        transform_pattern(texture.pattern.edit(), by);
         return;
     }
     transform_layer(texture, by);
@@ -38,7 +38,7 @@ void visit_average(const Texture& texture, const SurfacePoint& here, double shar
 void visit_textures(const Texture& texture, const SurfacePoint& at, double share, const TextureUse& use) {
     if (is_plain(texture)) return use(texture, at, share);
     const SurfacePoint here = to_pattern_space(texture.pattern, at);
-    if (std::holds_alternative<AveragePattern>(texture.pattern.kind))
+    if (std::holds_alternative<AveragePattern>(texture.pattern->kind))
         return visit_average(texture, here, share, use);
     const double value = eval_pattern_here(texture.pattern, here);
     const BlendSpot spot = look_up(texture.textures, value, is_list_pattern(texture.pattern));
@@ -98,7 +98,7 @@ void visit_patterns(TextureLayer& layer, const PatternUse& use) {
 } // namespace
 
 void for_each_pattern(Texture& texture, const PatternUse& use) {
-    use(texture.pattern);
+    if (!is_plain(texture)) use(texture.pattern.edit());
     visit_patterns(static_cast<TextureLayer&>(texture), use);
     for (TextureLayer& layer : texture.upper) visit_patterns(layer, use);
     for (auto& entry : texture.textures) for_each_pattern(entry.value, use);

@@ -17,13 +17,13 @@ namespace pnr {
 
 struct TextureLayer {
     Pigment pigment;
-    std::optional<Normal> normal;
+    Boxed<Normal> normal;
     Finish finish;
 };
 
 struct Texture : TextureLayer {             // plain: the lowest layer, of most textures the only one
     std::vector<TextureLayer> upper;         // the layers on it, from below
-    Pattern pattern;                         // what picks from `textures`
+    Seldom<Pattern> pattern;                 // what picks from `textures`
     std::vector<BlendEntry<Texture>> textures; // not empty: these instead
 };
 

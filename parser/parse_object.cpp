@@ -120,7 +120,7 @@ void add_material(Parser& p, Object& object) {
         material = parse_material(p);
     if (material.texture) object.texture = material.texture;
     if (material.interior_texture) object.interior_texture = material.interior_texture;
-    if (material.interior) object.interior = material.interior;
+    if (material.interior) object.interior = *material.interior;
 }
 
 bool parse_texture_modifier(Parser& p, Object& object) {

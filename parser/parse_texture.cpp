@@ -20,7 +20,7 @@ BlendMap<Texture> parse_texture_list(Parser& p) {
 
 // `tiles { texture {...} tile2 texture {...} }`: a checker.
 void parse_tiles(Parser& p, Texture& texture) {
-    set_kind(texture.pattern, CheckerPattern{});
+    set_kind(texture.pattern.edit(), CheckerPattern{});
     texture.textures.clear();
     block(p, "tiles", [&] {
         accept(p, "tile2"_kw);
@@ -66,7 +66,7 @@ bool parse_texture_pattern(Parser& p, Texture& texture) {
     const auto read_list = [&](const Pattern&) {
         if (auto list = parse_texture_list(p); !list.empty()) texture.textures = std::move(list);
     };
-    return parse_pattern(p, texture.pattern, read_list) || parse_pattern_modifier(p, texture.pattern);
+    return parse_pattern(p, texture.pattern.edit(), read_list) || parse_pattern_modifier(p, texture.pattern.edit());
 }
 
 void map_layer_by_uv(TextureLayer& layer) {
@@ -77,7 +77,7 @@ void map_layer_by_uv(TextureLayer& layer) {
 } // namespace
 
 void map_by_uv(Texture& texture) {
-    texture.pattern.uv_mapping = true;
+    texture.pattern.edit().uv_mapping = true;
     map_layer_by_uv(texture);
     for (TextureLayer& layer : texture.upper) map_layer_by_uv(layer);
 }

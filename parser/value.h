@@ -34,7 +34,7 @@ struct ColorMap {
 };
 // `material { texture {...} interior {...} }`
 struct SaidMaterial {
-    std::optional<Texture> texture, interior_texture;
+    Boxed<Texture> texture, interior_texture;
     std::optional<Interior> interior;
 };
 // `slope_map { [0 <0, 1>] [1 <1, 1>] }`, alone.

@@ -59,7 +59,7 @@ bool inside(const Shape& shape, Vec3 p) {
 bool inside(const Object& object, Vec3 p) {
     for (const Object& clip : object.clips)
         if (!inside(clip, p)) return false;
-    bool is = object.shape && inside(*object.shape, transform_point(object.transform.inverse, p));
+    bool is = object.shape && inside(*object.shape, transform_point(object.transform->inverse, p));
     const bool all =
         object.combination == Combination::intersect || object.combination == Combination::differ;
     for (std::size_t i = 0; i < object.children.size(); ++i) {

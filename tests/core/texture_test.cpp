@@ -54,16 +54,16 @@ TEST(Texture, AnOpaqueLayerHidesTheRest) {
 
 TEST(Texture, PatternsShareOutThePoint) {
     Texture map;
-    set_kind(map.pattern, GradientPattern{{1, 0, 0}});
+    set_kind(map.pattern.edit(), GradientPattern{{1, 0, 0}});
     map.textures = {{0, painted({Color(1, 0, 0)})}, {1, painted({Color(0, 1, 0)})}};
     SurfacePoint at;
     at.point = {0.3, 0, 0};
     expect_color(texture_color(map, at), {0.7f, 0.3f, 0});
-    set_kind(map.pattern, AveragePattern{});
+    set_kind(map.pattern.edit(), AveragePattern{});
     map.textures[0].position = 3;
     expect_color(texture_color(map, at), {0.75f, 0.25f, 0});
     Texture outer; // a map within a checker sees the point as the checker does
-    set_kind(outer.pattern, CheckerPattern{});
+    set_kind(outer.pattern.edit(), CheckerPattern{});
     outer.textures = {{0, map}, {1, painted({Color(0, 0, 1)})}};
     transform_texture(outer, translation({10, 0, 0}));
     at.point = {10.3, 0.5, 0.5};

@@ -162,7 +162,7 @@ TEST(BuildWorld, RefusesWhatIsNotFinite) {
             EXPECT_EQ(error.said_at.line, 7);
         }
         object = object_of(Sphere{});
-        object.transform.matrix[3][0] = bad;
+        object.transform.edit().matrix[3][0] = bad;
         EXPECT_THROW(build_world(scene_of({object}), {}), SceneError);
         EXPECT_THROW(
             build_world(scene_of({object_of(mesh_of({{0, 0, 0}, {bad, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}))}), {}),

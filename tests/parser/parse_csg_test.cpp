@@ -33,8 +33,8 @@ TEST(ParseCsg, ClipsMoveWithTheirObject) {
     ASSERT_EQ(object.clips.size(), 2u);
     ASSERT_EQ(object.bounds.size(), 2u);
     for (const Object& part : {object.clips[0], object.clips[1], object.bounds[1]})
-        expect_near(transform_point(part.transform.matrix, Vec3(0)), {3, 6, 0});
-    expect_near(transform_point(object.transform.matrix, Vec3(0)), {0, 6, 0});
+        expect_near(transform_point(part.transform->matrix, Vec3(0)), {3, 6, 0});
+    expect_near(transform_point(object.transform->matrix, Vec3(0)), {0, 6, 0});
     EXPECT_EQ(
         object_of("sphere { 0, 1 pigment { rgb 1 } bounded_by { box { -1, 1 } } clipped_by { bounded_by } }")
             .clips.size(),

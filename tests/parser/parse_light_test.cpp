@@ -63,7 +63,7 @@ TEST(ParseLight, LightsInUnionsAndTheirLooks) {
     expect_near(scene.lights[0].position, {0, 3, 0});
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_TRUE(scene.objects[1].no_shadow);
-    expect_near(transform_point(scene.objects[1].transform.matrix, Vec3(0)), {5, 0, 1});
+    expect_near(transform_point(scene.objects[1].transform->matrix, Vec3(0)), {5, 0, 1});
 }
 
 TEST(ParseLight, AGroupsLightsShineOnItsObjectsAlone) {

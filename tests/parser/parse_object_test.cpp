@@ -112,8 +112,8 @@ TEST(ParseObject, TransformsApplyToWhatStandsBeforeThem) {
         npr { seeds { seed { <0, 1, 0>, x } } }
         rotate 90 * y })");
     // +90 degrees about y takes z to x and x to -z, in the left-handed frame.
-    expect_near(transform_point(object.transform.matrix, Vec3(0)), {6, 4, -2});
-    expect_near(transform_point(object.texture->pigment.pattern.transform.matrix, Vec3(0)), {6, 4, -2});
+    expect_near(transform_point(object.transform->matrix, Vec3(0)), {6, 4, -2});
+    expect_near(transform_point(object.texture->pigment.pattern.transform->matrix, Vec3(0)), {6, 4, -2});
     expect_near(object.npr->style.seeds[0].position, {0, 1, 0});
     expect_near(object.npr->style.seeds[0].direction, {0, 0, -1});
 }
@@ -126,7 +126,7 @@ TEST(ParseObject, ATextureSaidAfterATransformStaysBehind) {
 TEST(ParseObject, UnionTransformsReachTheChildren) {
     const Object object =
         object_of("union { sphere { x, 1 scale 2 } sphere { 0, 1 } translate y" + paint + "}");
-    expect_near(transform_point(object.children[0].transform.matrix, {1, 0, 0}), {2, 1, 0});
+    expect_near(transform_point(object.children[0].transform->matrix, {1, 0, 0}), {2, 1, 0});
     EXPECT_FALSE(object.children[0].texture); // it takes the union's
     EXPECT_TRUE(object.texture);
 }

@@ -54,7 +54,7 @@ TEST(ParsePigment, GradientWithMap) {
     EXPECT_EQ(p.map[2].color.rgb, Color(1));
     EXPECT_EQ(p.pattern.frequency, 3);
     EXPECT_EQ(p.pattern.phase, 0.5);
-    expect_near(transform_point(p.pattern.transform.matrix, Vec3(1)), Vec3(2));
+    expect_near(transform_point(p.pattern.transform->matrix, Vec3(1)), Vec3(2));
 }
 
 // Colours that POV-Ray shows where the pattern has these values.
@@ -167,9 +167,9 @@ TEST(ParseTexture, AnObjectsSecondTextureLiesOnTheFirst) {
 TEST(ParseTexture, PatternsOfTextures) {
     const Texture squares = texture_of("texture { checker texture { pigment { rgb <1, 0, 0> } } texture { pigment { rgb <0, 1, 0> } } scale 2 }");
     ASSERT_EQ(squares.textures.size(), 2u);
-    EXPECT_TRUE(std::holds_alternative<CheckerPattern>(squares.pattern.kind));
+    EXPECT_TRUE(std::holds_alternative<CheckerPattern>(squares.pattern->kind));
     EXPECT_EQ(squares.textures[1].value.pigment.map[0].color.rgb, Color(0, 1, 0));
-    expect_near(transform_point(squares.pattern.transform.matrix, Vec3(1)), Vec3(2));
+    expect_near(transform_point(squares.pattern->transform->matrix, Vec3(1)), Vec3(2));
     // tiles { A tile2 B } has B in the cell at the origin, as POV-Ray shows it.
     const Texture tiles = texture_of("texture { tiles { texture { pigment { rgb <1, 0, 0> } } tile2 texture { pigment { rgb <0, 1, 0> } } } }");
     ASSERT_EQ(tiles.textures.size(), 2u);
@@ -189,7 +189,7 @@ TEST(ParseTexture, InteriorTextureAndMaterial) {
         sphere { 0, 1 material { texture { pigment { rgb 1 } } interior_texture { pigment { gradient x } } scale 3 } })");
     EXPECT_EQ(scene.objects[0].interior_texture->pigment.map[0].color.rgb, Color(1, 0, 0));
     EXPECT_TRUE(scene.objects[0].double_illuminate);
-    expect_near(transform_point(scene.objects[1].interior_texture->pigment.pattern.transform.matrix, Vec3(1)), Vec3(3));
+    expect_near(transform_point(scene.objects[1].interior_texture->pigment.pattern.transform->matrix, Vec3(1)), Vec3(3));
 }
 
 // Of a surface's own coordinates transforms within the block are made, but not those of the object.
@@ -197,7 +197,7 @@ TEST(ParseTexture, UvMappingLeavesTheObjectsTransformsOut) {
     const auto expect_scaled = [](const std::string& items) {
         const Pattern pattern = texture_of(items + " scale 7").pigment.pattern;
         EXPECT_TRUE(pattern.uv_mapping) << items;
-        expect_near(transform_point(pattern.transform.matrix, Vec3(1)), Vec3(0.1));
+        expect_near(transform_point(pattern.transform->matrix, Vec3(1)), Vec3(0.1));
     };
     expect_scaled("pigment { uv_mapping checker rgb 0, rgb 1 scale 0.1 }");
     expect_scaled("texture { uv_mapping pigment { checker rgb 0, rgb 1 } scale 0.1 }");
@@ -237,7 +237,7 @@ TEST(ParseNormal, StandsInTexturesDefaultsAndDeclarations) {
         sphere { 0, 1 pigment { rgb 1 } }
         sphere { 0, 1 pigment { rgb 1 } normal { gradient x normal_map { [0 bumps] [1 ripples 0.4] } } })");
     ASSERT_TRUE(scene.objects[0].texture->normal);
-    expect_near(transform_point(scene.objects[0].texture->normal->pattern.transform.matrix, Vec3(1)), Vec3(6));
+    expect_near(transform_point(scene.objects[0].texture->normal->pattern.transform->matrix, Vec3(1)), Vec3(6));
     ASSERT_TRUE(scene.objects[1].texture->normal);
     EXPECT_EQ(scene.objects[1].texture->normal->size, 0.2);
     EXPECT_EQ(scene.objects[2].texture->normal->normals.at(0).value.size, 0.2); // entries of maps start from it too
