@@ -168,7 +168,7 @@ struct Pattern {
     int noise_generator = 0;              // 1, 2, 3; 0: the scene's (filled by prepare_pattern)
     int number_of_waves = 0;              // of ripples and waves; 0: the scene's (likewise)
     bool uv_mapping = false;              // the point is <u, v, 0>, and `transform` maps from there
-    std::optional<Turbulence> turbulence; // said outside a warp
+    Boxed<Turbulence> turbulence;        // said outside a warp
     std::vector<Warp> warps; // in the order of the text; those after a transform come behind a TransformWarp
     Seldom<Transform> transform; // warped space -> scene space (build_world: -> world space)
 };
