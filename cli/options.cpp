@@ -78,7 +78,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 // What CLI11 fills and still needs a look.
 struct Words {
-    std::string scene, size, crop, frames, subset, aov, at, to, help;
+    std::string scene, size, crop, frames, subset, aov, at, to, help, groups;
     std::vector<std::string> declares, outputs, library, limits;
     bool no_prune = false;
 };
@@ -235,7 +235,7 @@ void add_others(CLI::App& parent, Options& options, Words& words, std::optional<
                 "Pixels are those of the picture that `pnr render` makes with the same -W and -H.");
 
     CLI::App& help = *parent.add_subcommand("help", "Explain a command");
-    help.add_option("COMMAND", words.help, "render, check, plan, pick or ilic");
+    help.add_option("COMMAND", words.help, "render, check, plan, pick, ilic or stability");
 }
 
 void add_ilic(CLI::App& parent, Options& options, Words& words, std::optional<ProgressMode>& progress) {
@@ -265,6 +265,19 @@ void add_ilic(CLI::App& parent, Options& options, Words& words, std::optional<Pr
         "Progress on standard error");
     app.footer("Example:\n  pnr ilic photo.jpg -o painting.png --style oil --length 20\n"
                "Strokes follow the picture's edges [Wang and Lee 2003]; paint in space is `pnr render`'s.");
+}
+
+void add_stability(CLI::App& parent, Options& options, Words& words) {
+    CLI::App& app = *parent.add_subcommand("stability", "Measure stiff and extreme cases against what theory allows");
+    app.add_option("--group", words.groups, "These groups alone: paths, fields, roots, rays, photons, sums, pictures")
+        ->type_name("NAME,...");
+    app.add_option("--html", options.html, "Write the table as a page too")->type_name("FILE");
+    app.add_option("--threads", options.threads, "Threads to use (default: all)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+    app.footer("Each line is a case that could break: what is measured, the bound that theory or a computation with 50\n"
+               "digits gives, and what came out. Exit code 5 if one does not hold. All groups take about a minute.\n\n"
+               "Example:\n  pnr stability --group rays,roots --html stability.html");
 }
 
 void finish_options(Options& options, const Words& words) {
@@ -304,6 +317,7 @@ void finish_options(Options& options, const Words& words) {
     if (options.error && !(*options.error > 0 && *options.error < 1e3))
         throw UsageError("--error: a fraction above 0 is expected, such as 0.03");
     options.aovs = split(words.aov, ',');
+    options.groups = split(words.groups, ',');
     options.prune = !words.no_prune;
     if (!words.at.empty()) options.at = to_pixel(words.at, "--at");
     if (!words.to.empty()) options.to = to_pixel(words.to, "--to");
@@ -343,9 +357,10 @@ struct Parsing {
         add_render(app, options, words, progress);
         add_others(app, options, words, format);
         add_ilic(app, options, words, progress);
+        add_stability(app, options, words);
         app.footer("Exit codes: 0 done, 1 render failed, 2 usage, 3 error in the scene, 4 file not read or "
                    "written,\n"
-                   "5 done, but --error was missed, 130 or 143 stopped by a signal.");
+                   "5 done, but --error was missed or a stability case fails, 130 or 143 stopped by a signal.");
     }
     Parsing(const Parsing&) = delete; // the app points into it
     Parsing& operator=(const Parsing&) = delete;

@@ -38,7 +38,7 @@ struct IlicOptions {
 };
 
 struct Options {
-    std::string command;                        // render, check, plan, pick, ilic
+    std::string command;                        // render, check, plan, pick, ilic, stability
     std::vector<std::string> scenes;            // empty: the embedded default scene; "-": standard input
     std::vector<std::filesystem::path> outputs; // "-": PNG to standard output
     std::optional<int> width, height;
@@ -71,6 +71,8 @@ struct Options {
     IlicOptions ilic;
     std::array<int, 2> at{}; // pick: pixels
     std::optional<std::array<int, 2>> to;
+    std::vector<std::string> groups; // stability: these alone; empty: all
+    std::filesystem::path html;      // the report as a page; empty: not asked for
 };
 
 // The command line cannot be understood (exit code 2).
