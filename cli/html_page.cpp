@@ -131,6 +131,23 @@ std::string html_table(const HtmlTable& table) {
     return html + "</tbody></table>\n";
 }
 
+std::string table_text(const HtmlTable& table) {
+    std::vector<std::vector<std::string>> rows{table.head};
+    rows.insert(rows.end(), table.rows.begin(), table.rows.end());
+    std::vector<std::size_t> widths(table.head.size(), 0);
+    for (const auto& row : rows)
+        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+    std::string text;
+    for (const auto& row : rows) {
+        std::string line;
+        for (std::size_t i = 0; i < row.size(); ++i)
+            line += row[i] + std::string(widths[i] - row[i].size() + 2, ' ');
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + "\n";
+    }
+    return text;
+}
+
 std::string html_picture(const Image<Color>& linear, const std::string& caption, int width) {
     return fmt::format("<figure><img width=\"{}\" alt=\"{}\" "
                        "src=\"data:image/png;base64,{}\"><figcaption>{}</figcaption></figure>\n",

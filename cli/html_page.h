@@ -21,6 +21,7 @@ struct HtmlTable {
     std::vector<bool> bad;                      // rows that are shown as failed; may be shorter than rows
 };
 std::string html_table(const HtmlTable& table);
+std::string table_text(const HtmlTable& table); // for a terminal: columns as wide as they must be
 
 // A picture of linear light as an embedded PNG, shown `width` wide. Throws FileError where the image library
 // is missing.

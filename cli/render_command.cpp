@@ -141,7 +141,7 @@ int render_frame(const Options& options, const AnimationFrame& frame, KeptPhoton
         };
         const Wishes wishes{options.crop,         !files.maps.empty(),     wants_light_parts(options),
                             options.save_photons, options.load_photons,    refinement_of(options),
-                            write_pictures,       options.budgets};
+                            write_pictures,       options.budgets,        {}};
         Rendering r = render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, kept,
                                    loaded.world_hash, passes);
         for (const std::string& note : notes_of(r)) print_note(note);

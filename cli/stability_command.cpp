@@ -59,24 +59,6 @@ HtmlTable as_table(const StabilityCases& cases) {
     return table;
 }
 
-// Columns as wide as they must be, two spaces between them.
-std::string as_text(const HtmlTable& table) {
-    std::vector<std::vector<std::string>> rows{table.head};
-    rows.insert(rows.end(), table.rows.begin(), table.rows.end());
-    std::vector<std::size_t> widths(table.head.size(), 0);
-    for (const auto& row : rows)
-        for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-    std::string text;
-    for (const auto& row : rows) {
-        std::string line;
-        for (std::size_t i = 0; i < row.size(); ++i)
-            line += row[i] + std::string(widths[i] - row[i].size() + 2, ' ');
-        line.erase(line.find_last_not_of(' ') + 1);
-        text += line + "\n";
-    }
-    return text;
-}
-
 } // namespace
 
 int run_stability(const Options& options) {
@@ -87,7 +69,7 @@ int run_stability(const Options& options) {
         std::count_if(cases.begin(), cases.end(), [](const StabilityCase& c) { return !holds(c); });
     const std::string sum =
         fmt::format("{} of {} cases hold\n", cases.size() - static_cast<std::size_t>(failed), cases.size());
-    print_answer(as_text(table) + sum);
+    print_answer(table_text(table) + sum);
     if (!options.html.empty())
         write_file_atomically(options.html, html_page("pnr: stiff and extreme cases",
                                                       "<p>" + html_text(sum) + "</p>" + html_table(table)));
