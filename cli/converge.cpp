@@ -28,26 +28,33 @@ Color as_displayed(Color c) { return oklab_from_linear(glm::clamp(c, Color(0), C
 
 double seconds_of_cpu() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-// Relative roots of the mean squares of the estimated noise and bias, against the picture's own light.
+// Relative roots of the mean squares of noise and bias, against the picture's own light, from each pixel's
+// own batches: their squares are right in the mean, so the sum over all pixels needs no smoothing (which
+// pictures of the error need, and which carries the noise at a lamp's rim to the dark pixels beside it). What
+// noise alone makes of the slope over the batches' widths is taken off the bias.
 void add_estimate(const Rendering& r, Snapshot& snapshot) {
-    const ErrorEstimate error = estimate_error(r.progressive, r.window);
-    if (error.empty()) return;
-    const double mean = mean_of(snapshot.photoreal, snapshot.mask), floor = 0.1 * mean;
-    double noise = 0, bias = 0, count = 0;
+    const ProgressiveSum& sum = r.progressive;
+    const double n = sum.batches, mean_shrink = sum.shrinks / n;
+    const double spread = sum.shrinks2 - sum.shrinks * mean_shrink;
+    if (sum.batches < 2) return;
+    const double floor = 0.1 * mean_of(snapshot.photoreal, snapshot.mask);
+    double noise2 = 0, bias2 = 0, count = 0;
     for (std::size_t i = 0; i < snapshot.mask.pixels.size(); ++i) {
-        if (snapshot.mask.pixels[i] <= 0) continue;
         const double light = static_cast<double>(luminance(snapshot.photoreal.pixels[i]));
         const double scale = light * light + floor * floor;
-        if (!(scale > 0)) continue;
-        const double n = static_cast<double>(error.noise.pixels[i]),
-                     b = static_cast<double>(error.bias.pixels[i]);
-        noise += n * n / scale;
-        bias += b * b / scale;
+        if (snapshot.mask.pixels[i] <= 0 || !(scale > 0)) continue;
         ++count;
+        const double own2 = static_cast<double>(sum.batch_squares.pixels[i]) / (n * (n - 1));
+        noise2 += own2 / scale;
+        if (sum.batches < 3 || spread < 1e-9) continue;
+        const double along = static_cast<double>(sum.batch_slope.pixels[i]) -
+                             sum.shrinks * static_cast<double>(sum.batch_mean.pixels[i]);
+        const double bias = along / spread * mean_shrink;
+        bias2 += (bias * bias - own2 * n / spread * mean_shrink * mean_shrink) / scale;
     }
     if (count == 0) return;
-    snapshot.noise = std::sqrt(noise / count);
-    snapshot.bias = std::sqrt(bias / count);
+    snapshot.noise = std::sqrt(noise2 / count);
+    snapshot.bias = std::sqrt(std::max(0.0, bias2 / count));
 }
 
 } // namespace
