@@ -266,8 +266,10 @@ const std::vector<StoredToken>& tokens_of(Parser& p, std::uint32_t source) {
     if (tokens.empty()) {
         LexRange all;
         all.most = tokens_allowed(in);
+        const std::size_t strings = in.strings.size();
         tokens = lex(in.sources.files[source], in.words, in.strings, all);
-        *in.bytes += static_cast<std::int64_t>(tokens.size() * sizeof(StoredToken));
+        *in.bytes += static_cast<std::int64_t>(tokens.size() * sizeof(StoredToken) +
+                                               (in.strings.size() - strings) * sizeof(std::string));
         in.symbols.resize(in.words.texts.size());
     }
     return tokens;
