@@ -138,7 +138,7 @@ void check_depth(Parser& p, const Token& at, int depth) {
 void check_weight(Parser& p, const Token& at, const Weight& weight) {
     check_depth(p, at, weight.depth);
     const std::int64_t most = p.in.options.budgets.bytes;
-    if (*p.in.bytes + static_cast<std::int64_t>(weight.bytes) > most)
+    if (*p.in.bytes + 2 * static_cast<std::int64_t>(weight.bytes) > most) // a copy will be made
         stop_at_limit(p, at, &Budgets::bytes, fmt::format("the scene needs more than {} MB", most / 1'000'000),
                       "does a loop put it into itself again and again?");
     constexpr std::int64_t bytes_per_token = 128; // that are copied in the time of a token

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace pnr {
 
 namespace {
@@ -93,6 +95,7 @@ void push_part(Parser& p, const Span& span) {
     if (tokens.empty()) {
         tokens = lex(in.sources.files[span.source], in.words, in.strings,
                      {span.begin, span.end, false, tokens_allowed(in)});
+        in.symbols.resize(std::max(in.symbols.size(), in.words.texts.size())); // what looked like a number may be a word
         *in.bytes += static_cast<std::int64_t>(tokens.size() * sizeof(StoredToken));
     }
     TokenFrame frame = in.frames.back();

@@ -468,13 +468,21 @@ void pair_directives(std::vector<StoredToken>& tokens, std::vector<std::string>&
             stack.pop_back();
         }
     }
-    if (stack.empty()) return;
-    StoredToken& opener = tokens[stack[0].opener];
-    strings.push_back("`#" + std::string(keyword_text(static_cast<Keyword>(opener.name.symbol))) +
-                      "` opened here is never closed by `#end`");
-    opener.kind = static_cast<std::uint32_t>(TokenKind::invalid) & 15;
-    opener.name.jump = 0; // nothing behind it can be trusted, other openers neither
-    opener.name.symbol = static_cast<Symbol>(strings.size() - 1);
+    // Recovery may pass over the first one, so that all of them are marked.
+    std::vector<std::pair<Symbol, Symbol>> messages; // by word
+    for (const Opened& open : stack) {
+        StoredToken& opener = tokens[open.opener];
+        const Symbol word = opener.name.symbol;
+        if (std::none_of(messages.begin(), messages.end(), [&](const auto& known) { return known.first == word; })) {
+            strings.push_back("`#" + std::string(keyword_text(static_cast<Keyword>(word))) +
+                              "` opened here is never closed by `#end`");
+            messages.emplace_back(word, static_cast<Symbol>(strings.size() - 1));
+        }
+        opener.kind = static_cast<std::uint32_t>(TokenKind::invalid) & 15;
+        opener.name.jump = 0; // nothing behind it can be trusted
+        for (const auto& [known, text] : messages)
+            if (known == word) opener.name.symbol = text;
+    }
 }
 
 } // namespace

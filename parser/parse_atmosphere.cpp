@@ -138,7 +138,7 @@ Fog parse_fog(Parser& p) {
         else if (parse_fog_word(p, fog))
             accept_comma(p);
         else if (at_color(p))
-            fog.color = parse_color(p);
+            fog.color = parse_color(p), accept_comma(p);
         else
             unexpected(p, "fog",
                        {"fog_type"_kw, "distance"_kw, "color"_kw, "fog_alt"_kw, "fog_offset"_kw, "up"_kw,
