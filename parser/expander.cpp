@@ -143,6 +143,10 @@ void fill(Parser& p, bool behind_operand) {
             continue;
         case TokenKind::invalid:
             if (stored.name.jump == 0) stop(p, token, in.strings[token.symbol]);
+            if (stored.name.jump == 1) {
+                warn(p, token, in.strings[token.symbol]);
+                continue;
+            }
             fail(p, token, in.strings[token.symbol]);
         default:
             break;

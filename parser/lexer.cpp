@@ -234,7 +234,10 @@ void lex_directive(Lexer& lexer) {
     while (lexer.at < lexer.end && (is_letter(*lexer.at) || is_digit(*lexer.at))) ++lexer.at;
     if (word == lexer.at) {
         lexer.at = from + 1;
-        add_invalid(lexer, from, "`#` must be followed by the name of a directive");
+        while (lexer.at < lexer.end && *lexer.at == '#') ++lexer.at; // a run of them is one
+        if (lexer.at < lexer.end && is_letter(*lexer.at)) --lexer.at;
+        add_invalid(lexer, from, "a `#` without the name of a directive means nothing");
+        lexer.tokens.back().name.jump = 1; // POV-Ray passes over it
         return;
     }
     const std::string_view text(word, static_cast<std::size_t>(lexer.at - word));

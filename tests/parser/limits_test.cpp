@@ -164,7 +164,7 @@ TEST(Limits, ValuesThatDouble) {
 TEST(Limits, TextsThatFillTheMemory) {
     LoadOptions options;
     options.budgets.bytes = 4'000'000;
-    for (const char* token : {"1 ", ";", "{", "}", "#", "@$", "\"\" ", "#if (1) ", "#end ", "a "}) {
+    for (const char* token : {"1 ", ";", "{", "}", "@$", "\"\" ", "#if (1) ", "#end ", "a "}) {
         const std::string error = first_error(repeated(token, 300'000), options);
         EXPECT_EQ(error.substr(0, 11), "test.pnr:1:") << token;
     }
@@ -187,6 +187,15 @@ TEST(Limits, ManyBreaks) {
     EXPECT_EQ(first_error("#while (1) " + repeated("#if (0) ", 100'000) + repeated("#break ", 100'000) +
                           repeated("#end ", 100'000) + "#break #end"),
               "");
+}
+
+// POV-Ray passes over it.
+TEST(Limits, HashesAlone) {
+    EXPECT_EQ(run("camera { location <0, 2, 0># } ### sphere { 0, 1 #} #debug \"read\" #"), "read");
+    EXPECT_EQ(run("###debug \"read\""), "read");
+    const LoadResult result = load_scene_text("camera { location <0, 2, 0># }", "test.pnr", {});
+    ASSERT_FALSE(result.diagnostics.empty());
+    EXPECT_EQ(result.diagnostics[0].message, "a `#` without the name of a directive means nothing");
 }
 
 // A word where a list of numbers was expected is known as one.
@@ -222,7 +231,6 @@ TEST(Limits, BrokenTexts) {
         {"sphere { 0, 1 pigment { Nothing } }", "`Nothing`"},
         {"#macro M(A) A #end M(", "test.pnr"},
         {"#while (1)", "never closed"},
-        {"#", "must be followed"},
         {"#include \"\"", "test.pnr"},
         {"#fopen F \"nothing\" read", "test.pnr"},
         {"#declare F = function(x) { F(x) };", "not declared"},
