@@ -52,7 +52,7 @@ VectorValue vector_of(Vec3 v) { return {{v.x, v.y, v.z, 0, 0}, 3, false}; }
 std::int64_t ray_work(const Object& object) {
     std::int64_t work = 50;
     if (object.shape) {
-        if (const auto* julia = std::get_if<JuliaFractal>(&*object.shape)) work += 200 * julia->data->max_iteration;
+        if (const auto* julia = std::get_if<JuliaFractal>(&*object.shape)) work += 400 * julia->data->max_iteration;
         if (std::holds_alternative<Isosurface>(*object.shape) || std::holds_alternative<Parametric>(*object.shape))
             work += 2'000;
     }

@@ -168,7 +168,7 @@ Shape parse_text(Parser& p) {
     accept_comma(p);
     Vec3 offset(0);
     if (at_expression(p)) offset = parse_vector(p);
-    constexpr std::size_t block = 1000, glyph = 200, work = 200; // work: in tokens, of a letter
+    constexpr std::size_t block = 1000, glyph = 200, work = 400; // work: in tokens, of a letter
     charge(p, said, block + text.size() * (sizeof(PlacedGlyph) + glyph));
     charge_work(p, said, static_cast<std::int64_t>(text.size() * work));
     try {
