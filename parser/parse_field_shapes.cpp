@@ -166,6 +166,7 @@ void parse_height_function(Parser& p, HeightFieldData& data) {
            sizeof(float) * static_cast<std::size_t>(data.width) * static_cast<std::size_t>(data.height));
     const auto function = parse_function_body(p, word);
     if (function->unsupported.empty()) {
+        charge_calls(p, word, *function, double(data.width) * data.height);
         data.function = [field = field_program(function)](Vec3 at) {
             FieldScratch scratch;
             return field_value(field, at, scratch);
