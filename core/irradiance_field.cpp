@@ -109,7 +109,7 @@ Level make_level(const World& world, const PhotonMap& map, float spacing) {
     Level level;
     level.spacing = spacing;
     Cells cells{spacing, {}};
-    for (std::size_t i = 0; i < map.photons.size(); ++i) {
+    for (std::size_t i = 0; i < map.tree.count; ++i) {
         const Photon& photon = map.photons[i];
         if (crowded(level, cells, photon)) continue;
         const std::optional<Hit> hit = hit_of_photon(world, photon);
@@ -139,18 +139,18 @@ struct GatherScene {
 };
 
 // Direct and caustic light that a matt surface reflects: all but what the next ray of a path is to bring.
-Color near_light(const GatherScene& scene, const Hit& hit, const Bsdf& matt, Vec3 outgoing, Rng& rng,
-                 std::vector<Neighbour>& scratch) {
+Color near_light(const GatherScene& scene, const Hit& hit, const Bsdf& matt, Vec3 outgoing, bool caustics,
+                 Rng& rng, std::vector<Neighbour>& scratch) {
     const Color direct = direct_light(scene.world, hit, matt, outgoing, 1, rng);
-    if (scene.map.caustic.count == 0) return direct;
-    const GatherSettings both{
-        lit_neighbours, scene.map.radius, GatherKernel::epanechnikov, false, true, true, 0, false};
-    return direct + gather(scene.world, scene.map, caustic_gather(scene.map, both), hit.position, matt,
-                           outgoing, scratch);
+    if (!caustics || scene.map.caustic.count == 0) return direct;
+    const GatherSettings alone{
+        lit_neighbours, scene.map.radius, GatherKernel::epanechnikov, false, false, true, 0, false};
+    return direct + gather(scene.world, scene.map, alone, hit.position, matt, outgoing, scratch);
 }
 
 // Radiance that a gather ray brings: reflected by the first diffuse surface, seen straight or through
-// specular ones. What emitters send is left out: it is direct or caustic light. A surface met nearer than the
+// specular ones. What emitters send is left out: it is direct or caustic light; and so are caustics seen through a
+// specular surface, which are caustics again (PhotonPath). A surface met nearer than the
 // width over which the photons' light is known is sampled anew, and the ray goes on from there [Christensen
 // 1999]; else light from round a corner would shine into it.
 Color gathered_radiance(const GatherScene& scene, Ray ray, Rng& rng, double& distance,
@@ -160,6 +160,7 @@ Color gathered_radiance(const GatherScene& scene, Ray ray, Rng& rng, double& dis
     const World& world = scene.world;
     const double near = near_share * scene.map.radius;
     Color throughput{1}, found{0};
+    bool straight = true; // from the last diffuse surface
     distance = infinity;
     for (int bounce = 0, scattered = 0; bounce < most_bounces; ++bounce) {
         const std::optional<Hit> hit = closest_hit(world, ray, RayKind::specular);
@@ -180,10 +181,13 @@ Color gathered_radiance(const GatherScene& scene, Ray ray, Rng& rng, double& dis
             Bsdf matt;
             matt.normal = matt.geometric = bsdf.geometric;
             matt.diffuse = bsdf.diffuse + bsdf.glossy;
-            if (hit->t >= near || scattered == most_near)
+            if (hit->t >= near || scattered == most_near) {
+                const LitIrradiance lit = lit_irradiance(scene.field.lit, hit->position, matt.normal, scratch);
                 return found + throughput * matt.diffuse / static_cast<float>(pi) *
-                                   lit_irradiance(scene.field.lit, hit->position, matt.normal, scratch);
-            found += throughput * near_light(scene, *hit, matt, outgoing, rng, scratch);
+                                   (straight ? lit.plain + lit.caustic : lit.plain);
+            }
+            found += throughput * near_light(scene, *hit, matt, outgoing, straight, rng, scratch);
+            straight = true;
             throughput *= matt.diffuse;
             ray = leave(*hit, square_to_cosine(rng.uniform2(), make_frame(matt.normal)));
             ++scattered;
@@ -193,6 +197,7 @@ Color gathered_radiance(const GatherScene& scene, Ray ray, Rng& rng, double& dis
         const ChainBranch branch = reflect ? ChainBranch::mirror : ChainBranch::transmit;
         throughput *= branch_weight(bsdf, branch) * static_cast<float>(sum / (reflect ? mirror : transmit));
         ray = leave(*hit, branch_direction(bsdf, outgoing, branch));
+        straight = false;
     }
     return found;
 }
