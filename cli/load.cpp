@@ -55,8 +55,13 @@ void check_readable(const std::string& name) {
     if (::access(name.c_str(), R_OK) != 0) refuse("permission denied");
 }
 
-// Rays a pixel and shadow rays a light.
-void apply_quality(RenderSettings& render, Quality quality) {
+// Rays a pixel, shadow rays a light, and photons where the scene does not say how many.
+void apply_quality(Settings& settings, Quality quality) {
+    RenderSettings& render = settings.render;
+    if (!settings.photons.count_given) {
+        if (quality == Quality::draft) settings.photons.count /= 2;
+        if (quality == Quality::high) settings.photons.count *= 2;
+    }
     if (quality == Quality::draft) {
         render.sharp = false;
         render.samples_min = 1;
@@ -145,7 +150,7 @@ Settings merge_settings(const Settings& scene, const Options& options) {
     if (options.seed) render.seed = *options.seed;
     if (options.exposure) render.exposure = *options.exposure;
     if (options.view) render.view = *options.view;
-    if (options.quality) apply_quality(render, *options.quality);
+    if (options.quality) apply_quality(settings, *options.quality);
     if (options.integrator) render.integrator = *options.integrator;
     if (options.antialias) {
         render.contrast = *options.antialias;

@@ -15,9 +15,14 @@ namespace {
 
 // Strata of a final gather: rings in elevation, sectors in azimuth; sectors near pi times the rings make them
 // even.
-constexpr int rings = 11, sectors = 34;
+struct Strata {
+    int rings, sectors;
+    constexpr int count() const { return rings * sectors; }
+};
+// By level: where records lie close, more of them are blended at a point, and each may know less.
+constexpr std::array<Strata, 4> level_strata{{{11, 34}, {9, 28}, {7, 22}, {6, 19}}};
 // Strata where a point gathers for itself alone, without gradients.
-constexpr int own_rings = 5, own_sectors = 16;
+constexpr Strata own_strata{5, 16};
 // Share of the mean distance to what a record sees within which it is trusted.
 constexpr double trusted_share = 0.35;
 // A level's records reach so many of its spacings.
@@ -28,7 +33,7 @@ constexpr double near_share = 0.4;
 constexpr float enough = 0.7f;
 // Cosine of the largest angle between a record's normal and the point's.
 constexpr float least_aligned = 0.9f;
-constexpr int most_levels = 4;
+constexpr std::size_t most_levels = level_strata.size();
 // Sum of trusted weights from which on a point need not gather for itself.
 constexpr float sure_weight = 0.05f;
 // Weight of a record where it is not to be trusted, if no other is.
@@ -205,37 +210,42 @@ Color gathered_radiance(const GatherScene& scene, Ray ray, Rng& rng, double& dis
 // ---- records
 // --------------------------------------------------------------------------------------------------------
 
+// What the rays found, by ring and sector.
 struct GatherRays {
-    std::array<std::array<Color, sectors>, rings> radiance;
-    std::array<std::array<double, sectors>, rings> distance;
+    Strata strata;
+    std::array<Color, level_strata[0].count()> radiances;
+    std::array<double, level_strata[0].count()> distances;
+
+    std::size_t at(int ring, int sector) const { return static_cast<std::size_t>(ring * strata.sectors + sector); }
+    Color radiance(int ring, int sector) const { return radiances[at(ring, sector)]; }
+    double distance(int ring, int sector) const { return distances[at(ring, sector)]; }
 };
 
-// A direction of the stratum in ring j of `ring_count`, sector k of `sector_count`; u places it there.
-Vec3 stratum_direction(int j, int ring_count, int k, int sector_count, Vec2 u, const Frame& frame) {
-    const double sin2 = (j + u.x) / ring_count, angle = 2 * pi * (k + u.y) / sector_count;
+// A direction of the stratum in ring j, sector k; u places it there.
+Vec3 stratum_direction(Strata strata, int j, int k, Vec2 u, const Frame& frame) {
+    const double sin2 = (j + u.x) / strata.rings, angle = 2 * pi * (k + u.y) / strata.sectors;
     const double sine = std::sqrt(sin2);
     return glm::normalize(sine * std::cos(angle) * frame.x + sine * std::sin(angle) * frame.y +
                           std::sqrt(1 - sin2) * frame.z);
 }
 
-GatherRays shoot(const GatherScene& scene, const Hit& hit, const Frame& frame, Rng& rng) {
+GatherRays shoot(const GatherScene& scene, const Hit& hit, const Frame& frame, Strata strata, Rng& rng) {
     GatherRays rays;
+    rays.strata = strata;
     std::vector<Neighbour> scratch;
-    for (int j = 0; j < rings; ++j)
-        for (int k = 0; k < sectors; ++k) {
-            const Vec3 direction = stratum_direction(j, rings, k, sectors, rng.uniform2(), frame);
-            const auto r = static_cast<std::size_t>(j), s = static_cast<std::size_t>(k);
-            rays.radiance[r][s] =
-                gathered_radiance(scene, leave(hit, direction), rng, rays.distance[r][s], scratch);
+    for (int j = 0; j < strata.rings; ++j)
+        for (int k = 0; k < strata.sectors; ++k) {
+            const Vec3 direction = stratum_direction(strata, j, k, rng.uniform2(), frame);
+            const std::size_t i = rays.at(j, k);
+            rays.radiances[i] = gathered_radiance(scene, leave(hit, direction), rng, rays.distances[i], scratch);
         }
     return rays;
 }
 
 Color irradiance_of(const GatherRays& rays) {
     Color sum{0};
-    for (const auto& ring : rays.radiance)
-        for (const Color c : ring) sum += c;
-    return sum * static_cast<float>(pi / (rings * sectors));
+    for (int i = 0; i < rays.strata.count(); ++i) sum += rays.radiances[static_cast<std::size_t>(i)];
+    return sum * static_cast<float>(pi / rays.strata.count());
 }
 
 // Adds the outer product of a vector and a colour to one gradient a channel.
@@ -246,30 +256,28 @@ void add(std::array<glm::dvec3, 3>& gradient, Vec3 v, Color c, double factor) {
 // The gradients of Ward and Heckbert 1992, equations for cosine-distributed strata. Rays count as no shorter
 // than `least`, for a few short ones in a corner would foretell more than the truth.
 void find_gradients(const GatherRays& rays, const Frame& frame, double least, Record& record) {
+    const auto [rings, sectors] = rays.strata;
     std::array<glm::dvec3, 3> moved{}, turned{};
     for (int k = 0; k < sectors; ++k) {
-        const auto s = static_cast<std::size_t>(k),
-                   before = static_cast<std::size_t>((k + sectors - 1) % sectors);
+        const int before = (k + sectors - 1) % sectors;
         const double middle = 2 * pi * (k + 0.5) / sectors, low = 2 * pi * k / sectors;
         const Vec3 outward = std::cos(middle) * frame.x + std::sin(middle) * frame.y;
         const Vec3 across = -std::sin(middle) * frame.x + std::cos(middle) * frame.y;
         const Vec3 across_low = -std::sin(low) * frame.x + std::cos(low) * frame.y;
         for (int j = 0; j < rings; ++j) {
-            const auto r = static_cast<std::size_t>(j);
-            const Color here = rays.radiance[r][s];
+            const Color here = rays.radiance(j, k);
             const double sine = std::sqrt((j + 0.5) / rings);
             // (n x n') points across for a normal n' that turns outward in a right-handed frame.
-            add(turned, across, here, sine / std::sqrt(1 - sine * sine) * pi / (rings * sectors));
+            add(turned, across, here, sine / std::sqrt(1 - sine * sine) * pi / rays.strata.count());
             const double sine_low = std::sqrt(static_cast<double>(j) / rings);
             const double sine_high = std::sqrt((j + 1.0) / rings);
             if (j > 0) {
-                const double near = std::max(least, std::min(rays.distance[r][s], rays.distance[r - 1][s]));
+                const double near = std::max(least, std::min(rays.distance(j, k), rays.distance(j - 1, k)));
                 const double cos2 = 1 - sine_low * sine_low;
-                add(moved, outward, here - rays.radiance[r - 1][s],
-                    2 * pi / sectors * sine_low * cos2 / near);
+                add(moved, outward, here - rays.radiance(j - 1, k), 2 * pi / sectors * sine_low * cos2 / near);
             }
-            const double near = std::max(least, std::min(rays.distance[r][s], rays.distance[r][before]));
-            add(moved, across_low, here - rays.radiance[r][before], (sine_high - sine_low) / near);
+            const double near = std::max(least, std::min(rays.distance(j, k), rays.distance(j, before)));
+            add(moved, across_low, here - rays.radiance(j, before), (sine_high - sine_low) / near);
         }
     }
     for (std::size_t i = 0; i < 3; ++i) {
@@ -283,12 +291,12 @@ void find_gradients(const GatherRays& rays, const Frame& frame, double least, Re
 // gradient allows.
 float trusted_reach(const GatherRays& rays, const Record& record, double share, double scene_radius) {
     double inverse = 0, least = infinity;
-    for (const auto& ring : rays.distance)
-        for (const double d : ring) {
-            inverse += 1 / std::max(d, 1e-9 * scene_radius);
-            least = std::min(least, d);
-        }
-    double reach = inverse > 0 ? share * rings * sectors / inverse : scene_radius;
+    for (int i = 0; i < rays.strata.count(); ++i) {
+        const double d = rays.distances[static_cast<std::size_t>(i)];
+        inverse += 1 / std::max(d, 1e-9 * scene_radius);
+        least = std::min(least, d);
+    }
+    double reach = inverse > 0 ? share * rays.strata.count() / inverse : scene_radius;
     reach = std::min(reach, least);
     const Vec3f slope = record.moved[0] * 0.2126f + record.moved[1] * 0.7152f + record.moved[2] * 0.0722f;
     const double steep = glm::length(slope);
@@ -296,14 +304,15 @@ float trusted_reach(const GatherRays& rays, const Record& record, double share, 
     return static_cast<float>(reach);
 }
 
-Record make_record(const IrradianceField& field, const World& world, const PhotonMap& map, const Site& site) {
+Record make_record(const IrradianceField& field, const World& world, const PhotonMap& map, Strata strata,
+                   const Site& site) {
     Record record;
     const Photon& photon = map.photons[site.photon];
     const std::optional<Hit> hit = hit_of_photon(world, photon);
     if (!hit) return record; // cannot be: the site was made from such a hit
     Rng rng = make_rng(field.seed, Pass::render, hash_words(site.photon, 0x6a09e667f3bcc908ull));
     const Frame frame = make_frame(Vec3(site.normal));
-    const GatherRays rays = shoot({field, world, map}, *hit, frame, rng);
+    const GatherRays rays = shoot({field, world, map}, *hit, frame, strata, rng);
     record.irradiance = irradiance_of(rays);
     find_gradients(rays, frame, field.levels.back().spacing, record);
     record.reach = trusted_reach(rays, record, trusted_share * std::sqrt(field.shrink), world.radius);
@@ -313,7 +322,8 @@ Record make_record(const IrradianceField& field, const World& world, const Photo
 const Record& record_of(const IrradianceField& field, Level& level, std::uint32_t index, const World& world,
                         const PhotonMap& map) {
     std::call_once(level.asked[index], [&] {
-        level.records[index] = make_record(field, world, map, level.sites[index]);
+        const auto number = static_cast<std::size_t>(&level - field.levels.data());
+        level.records[index] = make_record(field, world, map, level_strata[number], level.sites[index]);
         ++field.records;
     });
     return level.records[index];
@@ -426,12 +436,12 @@ Color gathered_irradiance(const IrradianceField& field, const World& world, cons
     const Frame frame = make_frame(normal);
     Color sum{0};
     double distance = 0;
-    for (int j = 0; j < own_rings; ++j)
-        for (int k = 0; k < own_sectors; ++k) {
-            const Vec3 direction = stratum_direction(j, own_rings, k, own_sectors, rng.uniform2(), frame);
+    for (int j = 0; j < own_strata.rings; ++j)
+        for (int k = 0; k < own_strata.sectors; ++k) {
+            const Vec3 direction = stratum_direction(own_strata, j, k, rng.uniform2(), frame);
             sum += gathered_radiance(scene, leave(hit, direction), rng, distance, scratch);
         }
-    return sum * static_cast<float>(pi / (own_rings * own_sectors));
+    return sum * static_cast<float>(pi / own_strata.count());
 }
 
 std::int64_t record_count(const IrradianceField& field) { return field.records; }

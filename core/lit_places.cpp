@@ -10,8 +10,9 @@
 namespace pnr {
 namespace {
 
-// Width of a cell over the mean distance of places: small enough that its answer is hardly another one's.
-constexpr float cell_share = 0.7f;
+// Width of a cell over the mean distance of places. With 0.7 the pictures are no better, and take 5 % longer: fewer cells stay
+// in the cache.
+constexpr float cell_share = 1.4f;
 // Slots that are tried before an answer is found without being kept.
 constexpr int most_probes = 8;
 
