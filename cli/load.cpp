@@ -64,11 +64,14 @@ void apply_quality(Settings& settings, Quality quality) {
     }
     if (quality == Quality::draft) {
         render.sharp = false;
+        render.gather_effort = 0;
         render.samples_min = 1;
         render.samples_max = 4;
+        render.contrast = std::max(render.contrast, 0.1); // the noise of few shadow rays is no edge
         render.shadow_samples = 4;
         render.grid.depth = 0;
     } else if (quality == Quality::high) {
+        render.gather_effort = 2;
         render.samples_min = 16;
         render.samples_max = 64;
         render.shadow_samples = 64;

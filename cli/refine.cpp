@@ -37,7 +37,7 @@ struct BatchMap {
 void prepare_pass(Rendering& r, const ProgressiveStep& step, const Settings& settings, int pass, BatchMap& map,
                   Passes& passes) {
     const bool sharper = pass == 1 && r.progressive.preview;
-    if (sharper) add_field(r, 1, r.photons, passes);
+    if (sharper) add_field(r, settings, 1, r.photons, passes);
     if (step.batch > 0 && step.begins_batch) {
         map.own = PhotonMap{}; // before the next one is made: memory is that of one batch
         map.own = make_photons(r, settings, step.batch, step.shrink, true, passes);

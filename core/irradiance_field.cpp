@@ -19,8 +19,10 @@ struct Strata {
     int rings, sectors;
     constexpr int count() const { return rings * sectors; }
 };
-// By level: where records lie close, more of them are blended at a point, and each may know less.
-constexpr std::array<Strata, 4> level_strata{{{11, 34}, {9, 28}, {7, 22}, {6, 19}}};
+// By level, from the one that FieldSettings::effort names: where records lie close, more of them are blended at a point,
+// and each may know less.
+constexpr std::array<Strata, 6> level_strata{{{13, 41}, {11, 34}, {9, 28}, {7, 22}, {6, 19}, {5, 16}}};
+constexpr std::size_t most_levels = 4;
 // Strata where a point gathers for itself alone, without gradients.
 constexpr Strata own_strata{5, 16};
 // Share of the mean distance to what a record sees within which it is trusted.
@@ -33,7 +35,6 @@ constexpr double near_share = 0.4;
 constexpr float enough = 0.7f;
 // Cosine of the largest angle between a record's normal and the point's.
 constexpr float least_aligned = 0.9f;
-constexpr std::size_t most_levels = level_strata.size();
 // Sum of trusted weights from which on a point need not gather for itself.
 constexpr float sure_weight = 0.05f;
 // Weight of a record where it is not to be trusted, if no other is.
@@ -68,7 +69,7 @@ struct IrradianceField {
     LitPlaces lit;
     mutable std::atomic<std::int64_t> records{0};
     std::uint64_t seed = 0;
-    double shrink = 1; // in area, of the widths below: see make_irradiance_field
+    FieldSettings settings;
 };
 
 namespace {
@@ -315,7 +316,7 @@ Record make_record(const IrradianceField& field, const World& world, const Photo
     const GatherRays rays = shoot({field, world, map}, *hit, frame, strata, rng);
     record.irradiance = irradiance_of(rays);
     find_gradients(rays, frame, field.levels.back().spacing, record);
-    record.reach = trusted_reach(rays, record, trusted_share * std::sqrt(field.shrink), world.radius);
+    record.reach = trusted_reach(rays, record, trusted_share * std::sqrt(field.settings.shrink), world.radius);
     return record;
 }
 
@@ -323,7 +324,8 @@ const Record& record_of(const IrradianceField& field, Level& level, std::uint32_
                         const PhotonMap& map) {
     std::call_once(level.asked[index], [&] {
         const auto number = static_cast<std::size_t>(&level - field.levels.data());
-        level.records[index] = make_record(field, world, map, level_strata[number], level.sites[index]);
+        const Strata strata = level_strata[number + 2 - static_cast<std::size_t>(field.settings.effort)];
+        level.records[index] = make_record(field, world, map, strata, level.sites[index]);
         ++field.records;
     });
     return level.records[index];
@@ -369,12 +371,13 @@ struct Blend {
 } // namespace
 
 std::shared_ptr<const IrradianceField> make_irradiance_field(const World& world, const PhotonMap& map,
-                                                             const Progress& progress, double shrink) {
+                                                             const FieldSettings& settings,
+                                                             const Progress& progress) {
     auto field = std::make_shared<IrradianceField>();
-    field->shrink = shrink;
+    field->settings = settings;
     field->seed = static_cast<std::uint64_t>(map.pass);
     if (map.photons.empty() || map.tree.count == 0) return field;
-    const int neighbours = std::max(8, static_cast<int>(std::lround(lit_neighbours * shrink)));
+    const int neighbours = std::max(8, static_cast<int>(std::lround(lit_neighbours * settings.shrink)));
     field->lit = make_lit_places(world, map, neighbours, progress);
     // From a tenth of the scene's radius down to the mean distance of photons, by halves.
     const double photon_distance = std::sqrt(pi / 100) * map.radius;

@@ -92,6 +92,7 @@ Settings settings_of(const ProgressiveStep& step, const Settings& settings) {
     Settings own = settings;
     if (step.batch > 0)
         own.render.seed = hash_words(settings.render.seed, static_cast<std::uint64_t>(step.batch));
+    own.render.gather_effort = 0; // the batches' mean knows more
     own.render.samples_min = batch_length; // the shadow rays asked for are shared by the passes of a batch
     own.photons.gather_max = std::max(8, static_cast<int>(std::lround(settings.photons.gather_max * step.shrink)));
     own.photons.gather_min = std::min(own.photons.gather_max, settings.photons.gather_min);

@@ -131,7 +131,7 @@ ProgressiveSum run_passes(const World& world, const Settings& settings, int pass
             build_photon_tree(map);
             map.radius *= static_cast<float>(std::sqrt(step.shrink));
         }
-        if (pass > 0 && !map.field) map.field = make_irradiance_field(world, map, {}, step.shrink);
+        if (pass > 0 && !map.field) map.field = make_irradiance_field(world, map, {step.shrink});
         add_pass(sum, step, render(world, gbuffer, map, own, window, false, {}, step.samples));
     }
     return sum;
