@@ -75,14 +75,16 @@ Image<float> box_mean(const Image<float>& image, PixelRect window, int apron) {
 
 } // namespace
 
-ProgressiveStep progressive_step(int pass, Illumination illumination, Integrator integrator) {
+bool large_picture(int width, int height) { return static_cast<std::int64_t>(width) * height > 400'000; }
+
+ProgressiveStep progressive_step(int pass, Illumination illumination, Integrator integrator, bool large) {
     ProgressiveStep step;
-    const bool mapped = illumination == Illumination::photon_mapped && integrator == Integrator::photons;
+    const bool previewed = large && illumination == Illumination::photon_mapped && integrator == Integrator::photons;
     const bool photons = illumination != Illumination::raytraced && integrator == Integrator::photons;
-    step.preview = mapped && pass == 0;
-    const int n = mapped ? std::max(0, pass - 1) : pass;
+    step.preview = previewed && pass == 0;
+    const int n = previewed ? std::max(0, pass - 1) : pass;
     step.batch = n / batch_length;
-    step.begins_batch = photons && !(mapped && pass == 1) && n % batch_length == 0;
+    step.begins_batch = photons && !(previewed && pass == 1) && n % batch_length == 0;
     step.samples = {n % batch_length, 1};
     step.shrink = photons ? shrink_of(step.batch) : 1;
     return step;

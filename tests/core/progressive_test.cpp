@@ -20,7 +20,7 @@ RenderResult flat_pass(int width, int height, float value) {
 }
 
 ProgressiveStep mapped_step(int pass) {
-    return progressive_step(pass, Illumination::photon_mapped, Integrator::photons);
+    return progressive_step(pass, Illumination::photon_mapped, Integrator::photons, true);
 }
 
 TEST(ProgressiveStep, AreasShrinkAsKnausAndZwickerSay) {
@@ -39,7 +39,11 @@ TEST(ProgressiveStep, EveryBatchTakesEachSampleOnceAndTracesItsPhotonsFirst) {
         EXPECT_EQ(step.batch * 4 + step.samples.first, pass - 1);
         EXPECT_EQ(step.begins_batch, pass > 1 && step.samples.first == 0);
     }
-    const ProgressiveStep plain = progressive_step(4, Illumination::raytraced, Integrator::photons);
+    const ProgressiveStep small = progressive_step(4, Illumination::photon_mapped, Integrator::photons, false);
+    EXPECT_TRUE(small.begins_batch) << "without a preview the passes count from the first one";
+    EXPECT_EQ(small.batch, 1);
+    EXPECT_FALSE(progressive_step(0, Illumination::photon_mapped, Integrator::photons, false).preview);
+    const ProgressiveStep plain = progressive_step(4, Illumination::raytraced, Integrator::photons, true);
     EXPECT_FALSE(plain.begins_batch) << "nothing to trace";
     EXPECT_EQ(plain.batch, 1);
 }
@@ -124,7 +128,7 @@ ProgressiveSum run_passes(const World& world, const Settings& settings, int pass
     ProgressiveSum sum;
     PhotonMap map;
     for (int pass = 0; pass < passes; ++pass) {
-        const ProgressiveStep step = progressive_step(pass, world.illumination, settings.render.integrator);
+        const ProgressiveStep step = progressive_step(pass, world.illumination, settings.render.integrator, true);
         const Settings own = settings_of(step, settings);
         if (pass == 0 || step.begins_batch) {
             map = trace_photons(world, own.photons, settings.render.seed, step.batch, false);
