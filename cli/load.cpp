@@ -57,15 +57,23 @@ void check_readable(const std::string& name) {
     if (::access(name.c_str(), R_OK) != 0) refuse("permission denied");
 }
 
-// Rays a pixel and shadow rays a light.
-void apply_quality(RenderSettings& render, Quality quality) {
+// Rays a pixel, shadow rays a light, and photons where the scene does not say how many.
+void apply_quality(Settings& settings, Quality quality) {
+    RenderSettings& render = settings.render;
+    if (!settings.photons.count_given) {
+        if (quality == Quality::draft) settings.photons.count /= 2;
+        if (quality == Quality::high) settings.photons.count *= 2;
+    }
     if (quality == Quality::draft) {
         render.sharp = false;
+        render.gather_effort = 0;
         render.samples_min = 1;
         render.samples_max = 4;
+        render.contrast = std::max(render.contrast, 0.1); // the noise of few shadow rays is no edge
         render.shadow_samples = 4;
         render.grid.depth = 0;
     } else if (quality == Quality::high) {
+        render.gather_effort = 2;
         render.samples_min = 16;
         render.samples_max = 64;
         render.shadow_samples = 64;
@@ -147,7 +155,7 @@ Settings merge_settings(const Settings& scene, const Options& options) {
     if (options.seed) render.seed = *options.seed;
     if (options.exposure) render.exposure = *options.exposure;
     if (options.view) render.view = *options.view;
-    if (options.quality) apply_quality(render, *options.quality);
+    if (options.quality) apply_quality(settings, *options.quality);
     if (options.integrator) render.integrator = *options.integrator;
     if (options.antialias) {
         render.contrast = *options.antialias;

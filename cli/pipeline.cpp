@@ -41,7 +41,7 @@ PhotonMap first_photons(const Scene& scene, const Rendering& r, const Wishes& wi
         passes.run("kdtree", [&](const Progress&) {
             if (r.plan.kdtree && map.tree.count == 0) build_photon_tree(map);
         });
-        if (field) add_field(r, 1, map, passes);
+        if (field) add_field(r, r.settings, 1, map, passes);
     }
     if (!wishes.save_photons.empty())
         passes.run("write", [&](const Progress&) { save_photons(map, scene.hash, wishes.save_photons); });
@@ -63,14 +63,14 @@ PhotonMap make_photons(const Rendering& r, const Settings& settings, int batch, 
         map.radius *= static_cast<float>(std::sqrt(shrink));
         map.caustic_radius *= static_cast<float>(std::sqrt(shrink));
     });
-    if (field) add_field(r, shrink, map, passes);
+    if (field) add_field(r, settings, shrink, map, passes);
     return map;
 }
 
-void add_field(const Rendering& r, double shrink, PhotonMap& map, Passes& passes) {
+void add_field(const Rendering& r, const Settings& settings, double shrink, PhotonMap& map, Passes& passes) {
     if (!r.plan.kdtree || r.world.illumination != Illumination::photon_mapped) return;
     passes.run("kdtree", [&](const Progress& progress) {
-        map.field = make_irradiance_field(r.world, map, progress, shrink);
+        map.field = make_irradiance_field(r.world, map, {shrink, settings.render.gather_effort}, progress);
     });
 }
 
@@ -170,7 +170,7 @@ bool still_holds(const KeptPhotons& kept, std::uint64_t world_hash, const Render
 // The map as it was before its first frame: the field's records are made where a picture needs them.
 PhotonMap take_kept(const Rendering& r, KeptPhotons& kept, Passes& passes) {
     PhotonMap map = std::move(kept.map);
-    if (map.field) add_field(r, 1, map, passes);
+    if (map.field) add_field(r, r.settings, 1, map, passes);
     return map;
 }
 

@@ -83,7 +83,7 @@ PaintResult paint(const Rendering& r, Passes& passes);
 // Pass 1 [LW10 3.1] and its kd-tree. `shrink`: see progressive.h.
 PhotonMap make_photons(const Rendering& r, const Settings& settings, int batch, double shrink, bool field, Passes& passes);
 // Smooth indirect light over a map that has its tree, where the scene needs it.
-void add_field(const Rendering& r, double shrink, PhotonMap& map, Passes& passes);
+void add_field(const Rendering& r, const Settings& settings, double shrink, PhotonMap& map, Passes& passes);
 
 // `kept` and `world_hash`: of an animation; the map is taken from there if it still holds. Throws SceneError, FileError,
 // UsageError (a crop that leaves the picture, a picture or a photon map larger than the budgets allow).

@@ -37,7 +37,7 @@ struct BatchMap {
 void prepare_pass(Rendering& r, const ProgressiveStep& step, const Settings& settings, int pass, BatchMap& map,
                   Passes& passes) {
     const bool sharper = pass == 1 && r.progressive.preview;
-    if (sharper) add_field(r, 1, r.photons, passes);
+    if (sharper || (pass == 0 && !step.preview)) add_field(r, settings, 1, r.photons, passes);
     if (step.batch > 0 && step.begins_batch) {
         map.own = PhotonMap{}; // before the next one is made: memory is that of one batch
         map.own = make_photons(r, settings, step.batch, step.shrink, true, passes);
@@ -63,9 +63,10 @@ void refine(Rendering& r, const Wishes& wishes, Passes& passes) {
     const Refinement& asked = *wishes.refinement;
     r.asked_error = asked.error.value_or(0);
     BatchMap map{{}, &r.photons};
+    const bool large = large_picture(r.gbuffer.view.width, r.gbuffer.view.height);
     for (int pass = 0;; ++pass) {
         const ProgressiveStep step =
-            progressive_step(pass, r.world.illumination, r.settings.render.integrator);
+            progressive_step(pass, r.world.illumination, r.settings.render.integrator, large);
         const Settings settings = settings_of(step, r.settings);
         RenderResult result;
         try {

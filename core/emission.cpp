@@ -3,6 +3,8 @@
 
 #include "core/area_light.h"
 #include "core/material.h"
+#include "core/parallel.h"
+#include "core/rng.h"
 #include "core/sobol.h"
 
 #include <algorithm>
@@ -74,7 +76,8 @@ Aim parallel_aim(const Light& light, const Focus& sphere) {
 
 std::vector<Aim> make_aims(const Focus& focus, const std::vector<Focus>& targets, const Light& light,
                            bool unbounded) {
-    const double reach = light.has_extent() ? area_reach(*light.said.area) : 0; // photons start so far beside its position
+    const double reach =
+        light.has_extent() ? area_reach(*light.said.area) : 0; // photons start so far beside its position
     const auto aim = [&](Focus sphere) {
         sphere.radius += reach;
         return is_parallel(light) ? parallel_aim(light, sphere) : point_aim(light, sphere);
@@ -100,26 +103,43 @@ bool said_target(const World& world) {
                        [](const Material& material) { return material.photons.target; });
 }
 
-// The bounding spheres of the objects that throw caustics; none if the whole scene is to be aimed at:
-// caustics are not all that is wanted, or something unbounded throws them.
-std::vector<Focus> find_targets(const World& world) {
-    std::vector<Focus> targets;
-    if (!world.caustics_apart) return targets;
-    const bool said = said_target(world);
+// Which objects throw caustics. An object that only its `specular_probability` makes specular is none: the
+// eye knows nothing of it, and its photons are many.
+std::vector<char> find_throwers(const World& world) {
+    const bool said = world.caustics_apart && said_target(world);
     std::vector<char> throws(world.objects.size(), 0);
     for (const Surface& surface : world.surfaces) {
         if (surface.light >= 0) continue;
         const Material& material = world.materials[static_cast<std::size_t>(surface.material)];
-        if (is_specular(material) && (!said || material.photons.target))
-            throws[static_cast<std::size_t>(surface.object)] = 1;
+        const bool wanted =
+            said ? material.photons.target : world.caustics_apart || !material.photons.specular_probability;
+        if (is_specular(material) && wanted) throws[static_cast<std::size_t>(surface.object)] = 1;
     }
+    return throws;
+}
+
+// The bounding spheres of the objects that throw caustics. Objects without bounds can't be aimed at: they are
+// taken from the list.
+std::vector<Focus> find_targets(const World& world, std::vector<char>& throws) {
+    std::vector<Focus> targets;
     for (std::size_t i = 0; i < world.objects.size(); ++i) {
         const Bounds& b = world.objects[i].bounds;
         if (throws[i] == 0 || is_empty(b)) continue;
-        if (!is_bounded(b)) return {};
-        targets.push_back({0.5 * (b.low + b.high), 0.5 * glm::length(b.high - b.low)});
+        if (is_bounded(b))
+            targets.push_back({0.5 * (b.low + b.high), 0.5 * glm::length(b.high - b.low)});
+        else
+            throws[i] = 0;
     }
     return targets;
+}
+
+// Caustics alone: none if something without bounds throws them, so that the whole scene is aimed at.
+std::vector<Focus> caustic_scene_targets(const World& world) {
+    if (!world.caustics_apart) return {};
+    std::vector<char> throws = find_throwers(world);
+    const auto count = std::count(throws.begin(), throws.end(), 1);
+    std::vector<Focus> targets = find_targets(world, throws);
+    return std::count(throws.begin(), throws.end(), 1) == count ? targets : std::vector<Focus>{};
 }
 
 double mean(Color c) { return (static_cast<double>(c.x) + c.y + c.z) / 3; }
@@ -136,6 +156,18 @@ double light_weight(const Focus& focus, const Light& light) {
         lit = std::min(scene, spot * distance * distance);
     }
     return pi * mean(light.said.color) * lit * light_fading(light, distance);
+}
+
+// About the share of a light's flux that goes to the targets.
+double target_share(const Focus& focus, const std::vector<Focus>& targets, const Light& light) {
+    double share = 0;
+    for (const Focus& target : targets) {
+        const double r2 = target.radius * target.radius;
+        const double distance = glm::distance(light.said.position, target.center);
+        share +=
+            is_parallel(light) ? r2 / (focus.radius * focus.radius) : r2 / std::max(r2, distance * distance);
+    }
+    return std::min(1.0, share);
 }
 
 std::int64_t photon_count(const Focus& focus, const PhotonSettings& settings) {
@@ -162,6 +194,35 @@ bool contains(const Aim& aim, Vec3 direction) {
     return 1 - glm::dot(aim.axis, direction) <= aim.one_minus_cos * (1 + 1e-9) + 1e-15;
 }
 
+// A point of the emitter, and a direction from there to one of the targets, evenly over the cones to them.
+EmittedPhoton emit_toward(const Light& light, const LightShare& share, const std::vector<Focus>& targets,
+                          Vec2 u, Vec2 on_emitter) {
+    const EmissionSample start = sample_emission(light, on_emitter, u);
+    std::vector<Aim> aims;
+    double whole = 0;
+    for (const Focus& target : targets) {
+        Aim aim = aim_at_sphere(start.point, target);
+        if (aim.one_minus_cos >= 2) aim = cone_aim(start.normal, 1); // from within: all that it emits
+        whole += aim.measure;
+        aims.push_back(aim);
+    }
+    for (Aim& aim : aims) aim.share = aim.measure / whole;
+    const Aim& aim = choose_aim(aims, u.x);
+    const Vec3 direction = square_to_cone(u, make_frame(aim.axis), aim.one_minus_cos);
+    const auto cones = std::count_if(aims.begin(), aims.end(),
+                                     [&](const Aim& a) { return &a == &aim || contains(a, direction); });
+    const double cosine = glm::dot(start.normal, direction);
+    if (!(cosine > 0)) return {};
+    Hit from;
+    from.position = start.point;
+    from.normal = from.shading_normal = start.normal;
+    from.error = start.error;
+    // Radiance times cosine over the density, by area and solid angle.
+    const double weight =
+        cosine * light.area * whole / (static_cast<double>(cones) * static_cast<double>(share.count));
+    return {leave(from, direction), light.radiance * static_cast<float>(weight)};
+}
+
 EmittedPhoton emit_point(const Light& light, const LightShare& share, Vec2 u, Vec2 on_area) {
     const Aim& aim = choose_aim(share.aims, u.x);
     EmittedPhoton photon;
@@ -172,7 +233,8 @@ EmittedPhoton emit_point(const Light& light, const LightShare& share, Vec2 u, Ve
         if (&a == &aim || contains(a, photon.ray.direction)) density += a.share / a.measure;
     photon.flux = light.said.color * static_cast<float>(pi / (density * static_cast<double>(share.count)));
     if (light.has_extent())
-        photon.ray.origin = area_point_at(view_area(light, photon.ray.origin + photon.ray.direction, 0), on_area);
+        photon.ray.origin =
+            area_point_at(view_area(light, photon.ray.origin + photon.ray.direction, 0), on_area);
     return photon;
 }
 
@@ -193,53 +255,141 @@ EmittedPhoton emit_parallel(const Light& light, const LightShare& share, Vec2 u)
 
 } // namespace
 
-EmissionPlan plan_emission(const World& world, const PhotonSettings& settings) {
-    EmissionPlan plan;
-    const bool unbounded = has_unbounded(world);
-    plan.focus = make_focus(world, unbounded);
-    const std::vector<Focus> targets = find_targets(world);
-    plan.targeted = world.caustics_apart && said_target(world);
-    const std::int64_t wanted = photon_count(plan.focus, settings);
-    double total = 0;
-    std::vector<double> weights;
-    for (const Light& light : world.lights) {
-        const double weight = light_weight(plan.focus, light);
-        weights.push_back(weight > 0 && std::isfinite(weight) ? weight : 0);
-        total += weights.back();
-    }
-    if (!(total > 0) || wanted == 0) return plan;
-    double before = 0; // rounding the running sum keeps the parts' sum at `wanted`
+namespace {
+
+// Shares `wanted` photons out by the weights of the lights.
+void share_out(EmissionPlan& plan, std::int64_t wanted, const std::vector<double>& weights,
+               const LightShare& of_all) {
+    double total = 0, before = 0; // rounding the running sum keeps the parts' sum at `wanted`
+    for (const double weight : weights) total += weight;
+    if (!(total > 0) || wanted == 0) return;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         if (!(weights[i] > 0)) continue;
         const auto part = [&](double weight) {
             return std::llround(static_cast<double>(wanted) * (weight / total));
         };
-        LightShare share;
+        LightShare share = of_all;
         share.light = static_cast<int>(i);
         share.first = plan.count;
         share.count = std::max<std::int64_t>(1, part(before + weights[i]) - part(before));
-        if (!world.lights[i].is_emitter())
-            share.aims = make_aims(plan.focus, targets, world.lights[i], unbounded);
         before += weights[i];
         plan.count += share.count;
         plan.shares.push_back(std::move(share));
     }
+}
+
+} // namespace
+
+EmissionPlan plan_emission(const World& world, const PhotonSettings& settings) {
+    EmissionPlan plan;
+    const bool unbounded = has_unbounded(world);
+    plan.focus = make_focus(world, unbounded);
+    plan.targeted = world.caustics_apart && said_target(world);
+    const std::int64_t wanted = photon_count(plan.focus, settings);
+    std::vector<double> weights;
+    for (const Light& light : world.lights) {
+        const double weight = light_weight(plan.focus, light);
+        weights.push_back(weight > 0 && std::isfinite(weight) ? weight : 0);
+    }
+    share_out(plan, wanted, weights, {});
+    plan.everywhere = plan.count;
+    if (!world.caustics_apart) {
+        plan.aimed_at = find_throwers(world);
+        plan.targets = find_targets(world, plan.aimed_at);
+        for (std::size_t i = 0; i < weights.size(); ++i)
+            weights[i] *= target_share(plan.focus, plan.targets, world.lights[i]);
+        LightShare caustics;
+        caustics.caustics = true;
+        if (!plan.targets.empty()) share_out(plan, wanted, weights, caustics);
+        if (plan.count == plan.everywhere) plan.aimed_at.clear();
+    }
+    const std::vector<Focus> alone = caustic_scene_targets(world);
+    for (LightShare& share : plan.shares) {
+        const Light& light = world.lights[static_cast<std::size_t>(share.light)];
+        if (!light.is_emitter())
+            share.aims = make_aims(plan.focus, share.caustics ? plan.targets : alone, light, unbounded);
+    }
     return plan;
 }
 
-EmittedPhoton emit_photon(const World& world, const LightShare& share, std::uint64_t index,
-                          std::uint64_t seed) {
+namespace {
+
+// The grid of a projection map, and the rays that look through each of its cells.
+constexpr int grid = 64, looks = 4;
+
+// Moves a point of the square into the cells and returns the share of the square that they are.
+float into_cells(const LightShare& share, Vec2& u) {
+    if (share.cells.empty()) return 1;
+    const auto count = static_cast<double>(share.cells.size());
+    const double place = u.x * count;
+    const auto which = std::min(share.cells.size() - 1, static_cast<std::size_t>(place));
+    const int cell = share.cells[which];
+    u = Vec2(cell % grid + (place - static_cast<double>(which)), cell / grid + u.y) /
+        static_cast<double>(grid);
+    u = glm::min(u, Vec2(0x1.fffffffffffffp-1));
+    return static_cast<float>(count / (grid * grid));
+}
+
+// The photon that starts with these coordinates.
+EmittedPhoton start_photon(const World& world, const EmissionPlan& plan, const LightShare& share, Vec2 u,
+                           Vec2 on_light) {
     const Light& light = world.lights[static_cast<std::size_t>(share.light)];
-    const Vec2 u = sobol2(index, 0, seed);
     if (!light.is_emitter())
-        return is_parallel(light) ? emit_parallel(light, share, u)
-                                  : emit_point(light, share, u, sobol2(index, 2, seed));
-    const EmissionSample start = sample_emission(light, u, sobol2(index, 2, seed));
+        return is_parallel(light) ? emit_parallel(light, share, u) : emit_point(light, share, u, on_light);
+    if (share.caustics) return emit_toward(light, share, plan.targets, u, on_light);
+    const EmissionSample start = sample_emission(light, u, on_light);
     Hit from; // the emitter's own surface, so that the ray leaves it as from any hit
     from.position = start.point;
     from.normal = from.shading_normal = start.normal;
     from.error = start.error;
     return {leave(from, start.direction), light.power / static_cast<float>(share.count)};
+}
+
+bool leads_to_target(const World& world, const EmissionPlan& plan, const LightShare& share, Vec2 u,
+                     Vec2 on_light) {
+    const EmittedPhoton photon = start_photon(world, plan, share, u, on_light);
+    if (is_black(photon.flux)) return false;
+    const std::optional<Hit> hit = closest_hit(world, photon.ray, RayKind::photon);
+    return hit && plan.aimed_at[static_cast<std::size_t>(world.surfaces[hit->surface].object)] != 0;
+}
+
+} // namespace
+
+void find_cells(const World& world, EmissionPlan& plan, std::uint64_t seed) {
+    for (LightShare& share : plan.shares) {
+        if (!share.caustics || share.count < looks * grid * grid) continue;
+        std::vector<char> found(grid * grid, 0);
+        parallel_for(grid, 1, [&](std::int64_t row, std::int64_t, std::int64_t) {
+            for (std::int64_t cell = row * grid; cell < (row + 1) * grid; ++cell) {
+                Rng rng = make_rng(seed, Pass::photons,
+                                   static_cast<std::uint64_t>(share.light * grid * grid + cell));
+                for (int i = 0; i < looks && found[static_cast<std::size_t>(cell)] == 0; ++i) {
+                    const Vec2 u =
+                        (Vec2(static_cast<double>(cell % grid), static_cast<double>(row)) + rng.uniform2()) /
+                        static_cast<double>(grid);
+                    found[static_cast<std::size_t>(cell)] =
+                        leads_to_target(world, plan, share, u, rng.uniform2());
+                }
+            }
+        });
+        for (int y = 0; y < grid; ++y) // and those beside them, where the rays may have missed what is there
+            for (int x = 0; x < grid; ++x) {
+                bool near = false;
+                for (int v = std::max(0, y - 1); v <= std::min(grid - 1, y + 1); ++v)
+                    for (int w = std::max(0, x - 1); w <= std::min(grid - 1, x + 1); ++w)
+                        near = near || found[static_cast<std::size_t>(v * grid + w)] != 0;
+                if (near) share.cells.push_back(static_cast<std::uint16_t>(y * grid + x));
+            }
+    }
+}
+
+EmittedPhoton emit_photon(const World& world, const EmissionPlan& plan, const LightShare& share,
+                          std::uint64_t index, std::uint64_t seed) {
+    Vec2 u = sobol2(index, 0, seed);
+    const float left = into_cells(share, u);
+    EmittedPhoton photon = start_photon(world, plan, share, u, sobol2(index, 2, seed));
+    photon.flux *= left;
+    return photon;
 }
 
 } // namespace pnr

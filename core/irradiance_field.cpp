@@ -15,9 +15,16 @@ namespace {
 
 // Strata of a final gather: rings in elevation, sectors in azimuth; sectors near pi times the rings make them
 // even.
-constexpr int rings = 11, sectors = 34;
+struct Strata {
+    int rings, sectors;
+    constexpr int count() const { return rings * sectors; }
+};
+// By level, from the one that FieldSettings::effort names: where records lie close, more of them are blended at a point,
+// and each may know less.
+constexpr std::array<Strata, 6> level_strata{{{13, 41}, {11, 34}, {9, 28}, {7, 22}, {6, 19}, {5, 16}}};
+constexpr std::size_t most_levels = 4;
 // Strata where a point gathers for itself alone, without gradients.
-constexpr int own_rings = 5, own_sectors = 16;
+constexpr Strata own_strata{5, 16};
 // Share of the mean distance to what a record sees within which it is trusted.
 constexpr double trusted_share = 0.35;
 // A level's records reach so many of its spacings.
@@ -28,7 +35,6 @@ constexpr double near_share = 0.4;
 constexpr float enough = 0.7f;
 // Cosine of the largest angle between a record's normal and the point's.
 constexpr float least_aligned = 0.9f;
-constexpr int most_levels = 4;
 // Sum of trusted weights from which on a point need not gather for itself.
 constexpr float sure_weight = 0.05f;
 // Weight of a record where it is not to be trusted, if no other is.
@@ -63,7 +69,7 @@ struct IrradianceField {
     LitPlaces lit;
     mutable std::atomic<std::int64_t> records{0};
     std::uint64_t seed = 0;
-    double shrink = 1; // in area, of the widths below: see make_irradiance_field
+    FieldSettings settings;
 };
 
 namespace {
@@ -109,7 +115,7 @@ Level make_level(const World& world, const PhotonMap& map, float spacing) {
     Level level;
     level.spacing = spacing;
     Cells cells{spacing, {}};
-    for (std::size_t i = 0; i < map.photons.size(); ++i) {
+    for (std::size_t i = 0; i < map.tree.count; ++i) {
         const Photon& photon = map.photons[i];
         if (crowded(level, cells, photon)) continue;
         const std::optional<Hit> hit = hit_of_photon(world, photon);
@@ -139,18 +145,18 @@ struct GatherScene {
 };
 
 // Direct and caustic light that a matt surface reflects: all but what the next ray of a path is to bring.
-Color near_light(const GatherScene& scene, const Hit& hit, const Bsdf& matt, Vec3 outgoing, Rng& rng,
-                 std::vector<Neighbour>& scratch) {
+Color near_light(const GatherScene& scene, const Hit& hit, const Bsdf& matt, Vec3 outgoing, bool caustics,
+                 Rng& rng, std::vector<Neighbour>& scratch) {
     const Color direct = direct_light(scene.world, hit, matt, outgoing, 1, rng);
-    if (scene.map.caustic.count == 0) return direct;
-    const GatherSettings both{
-        lit_neighbours, scene.map.radius, GatherKernel::epanechnikov, false, true, true, 0, false};
-    return direct + gather(scene.world, scene.map, caustic_gather(scene.map, both), hit.position, matt,
-                           outgoing, scratch);
+    if (!caustics || scene.map.caustic.count == 0) return direct;
+    const GatherSettings alone{
+        lit_neighbours, scene.map.radius, GatherKernel::epanechnikov, false, false, true, 0, false};
+    return direct + gather(scene.world, scene.map, alone, hit.position, matt, outgoing, scratch);
 }
 
 // Radiance that a gather ray brings: reflected by the first diffuse surface, seen straight or through
-// specular ones. What emitters send is left out: it is direct or caustic light. A surface met nearer than the
+// specular ones. What emitters send is left out: it is direct or caustic light; and so are caustics seen through a
+// specular surface, which are caustics again (PhotonPath). A surface met nearer than the
 // width over which the photons' light is known is sampled anew, and the ray goes on from there [Christensen
 // 1999]; else light from round a corner would shine into it.
 Color gathered_radiance(const GatherScene& scene, Ray ray, Rng& rng, double& distance,
@@ -160,6 +166,7 @@ Color gathered_radiance(const GatherScene& scene, Ray ray, Rng& rng, double& dis
     const World& world = scene.world;
     const double near = near_share * scene.map.radius;
     Color throughput{1}, found{0};
+    bool straight = true; // from the last diffuse surface
     distance = infinity;
     for (int bounce = 0, scattered = 0; bounce < most_bounces; ++bounce) {
         const std::optional<Hit> hit = closest_hit(world, ray, RayKind::specular);
@@ -180,10 +187,13 @@ Color gathered_radiance(const GatherScene& scene, Ray ray, Rng& rng, double& dis
             Bsdf matt;
             matt.normal = matt.geometric = bsdf.geometric;
             matt.diffuse = bsdf.diffuse + bsdf.glossy;
-            if (hit->t >= near || scattered == most_near)
+            if (hit->t >= near || scattered == most_near) {
+                const LitIrradiance lit = lit_irradiance(scene.field.lit, hit->position, matt.normal, scratch);
                 return found + throughput * matt.diffuse / static_cast<float>(pi) *
-                                   lit_irradiance(scene.field.lit, hit->position, matt.normal, scratch);
-            found += throughput * near_light(scene, *hit, matt, outgoing, rng, scratch);
+                                   (straight ? lit.plain + lit.caustic : lit.plain);
+            }
+            found += throughput * near_light(scene, *hit, matt, outgoing, straight, rng, scratch);
+            straight = true;
             throughput *= matt.diffuse;
             ray = leave(*hit, square_to_cosine(rng.uniform2(), make_frame(matt.normal)));
             ++scattered;
@@ -193,6 +203,7 @@ Color gathered_radiance(const GatherScene& scene, Ray ray, Rng& rng, double& dis
         const ChainBranch branch = reflect ? ChainBranch::mirror : ChainBranch::transmit;
         throughput *= branch_weight(bsdf, branch) * static_cast<float>(sum / (reflect ? mirror : transmit));
         ray = leave(*hit, branch_direction(bsdf, outgoing, branch));
+        straight = false;
     }
     return found;
 }
@@ -200,37 +211,42 @@ Color gathered_radiance(const GatherScene& scene, Ray ray, Rng& rng, double& dis
 // ---- records
 // --------------------------------------------------------------------------------------------------------
 
+// What the rays found, by ring and sector.
 struct GatherRays {
-    std::array<std::array<Color, sectors>, rings> radiance;
-    std::array<std::array<double, sectors>, rings> distance;
+    Strata strata;
+    std::array<Color, level_strata[0].count()> radiances;
+    std::array<double, level_strata[0].count()> distances;
+
+    std::size_t at(int ring, int sector) const { return static_cast<std::size_t>(ring * strata.sectors + sector); }
+    Color radiance(int ring, int sector) const { return radiances[at(ring, sector)]; }
+    double distance(int ring, int sector) const { return distances[at(ring, sector)]; }
 };
 
-// A direction of the stratum in ring j of `ring_count`, sector k of `sector_count`; u places it there.
-Vec3 stratum_direction(int j, int ring_count, int k, int sector_count, Vec2 u, const Frame& frame) {
-    const double sin2 = (j + u.x) / ring_count, angle = 2 * pi * (k + u.y) / sector_count;
+// A direction of the stratum in ring j, sector k; u places it there.
+Vec3 stratum_direction(Strata strata, int j, int k, Vec2 u, const Frame& frame) {
+    const double sin2 = (j + u.x) / strata.rings, angle = 2 * pi * (k + u.y) / strata.sectors;
     const double sine = std::sqrt(sin2);
     return glm::normalize(sine * std::cos(angle) * frame.x + sine * std::sin(angle) * frame.y +
                           std::sqrt(1 - sin2) * frame.z);
 }
 
-GatherRays shoot(const GatherScene& scene, const Hit& hit, const Frame& frame, Rng& rng) {
+GatherRays shoot(const GatherScene& scene, const Hit& hit, const Frame& frame, Strata strata, Rng& rng) {
     GatherRays rays;
+    rays.strata = strata;
     std::vector<Neighbour> scratch;
-    for (int j = 0; j < rings; ++j)
-        for (int k = 0; k < sectors; ++k) {
-            const Vec3 direction = stratum_direction(j, rings, k, sectors, rng.uniform2(), frame);
-            const auto r = static_cast<std::size_t>(j), s = static_cast<std::size_t>(k);
-            rays.radiance[r][s] =
-                gathered_radiance(scene, leave(hit, direction), rng, rays.distance[r][s], scratch);
+    for (int j = 0; j < strata.rings; ++j)
+        for (int k = 0; k < strata.sectors; ++k) {
+            const Vec3 direction = stratum_direction(strata, j, k, rng.uniform2(), frame);
+            const std::size_t i = rays.at(j, k);
+            rays.radiances[i] = gathered_radiance(scene, leave(hit, direction), rng, rays.distances[i], scratch);
         }
     return rays;
 }
 
 Color irradiance_of(const GatherRays& rays) {
     Color sum{0};
-    for (const auto& ring : rays.radiance)
-        for (const Color c : ring) sum += c;
-    return sum * static_cast<float>(pi / (rings * sectors));
+    for (int i = 0; i < rays.strata.count(); ++i) sum += rays.radiances[static_cast<std::size_t>(i)];
+    return sum * static_cast<float>(pi / rays.strata.count());
 }
 
 // Adds the outer product of a vector and a colour to one gradient a channel.
@@ -241,30 +257,28 @@ void add(std::array<glm::dvec3, 3>& gradient, Vec3 v, Color c, double factor) {
 // The gradients of Ward and Heckbert 1992, equations for cosine-distributed strata. Rays count as no shorter
 // than `least`, for a few short ones in a corner would foretell more than the truth.
 void find_gradients(const GatherRays& rays, const Frame& frame, double least, Record& record) {
+    const auto [rings, sectors] = rays.strata;
     std::array<glm::dvec3, 3> moved{}, turned{};
     for (int k = 0; k < sectors; ++k) {
-        const auto s = static_cast<std::size_t>(k),
-                   before = static_cast<std::size_t>((k + sectors - 1) % sectors);
+        const int before = (k + sectors - 1) % sectors;
         const double middle = 2 * pi * (k + 0.5) / sectors, low = 2 * pi * k / sectors;
         const Vec3 outward = std::cos(middle) * frame.x + std::sin(middle) * frame.y;
         const Vec3 across = -std::sin(middle) * frame.x + std::cos(middle) * frame.y;
         const Vec3 across_low = -std::sin(low) * frame.x + std::cos(low) * frame.y;
         for (int j = 0; j < rings; ++j) {
-            const auto r = static_cast<std::size_t>(j);
-            const Color here = rays.radiance[r][s];
+            const Color here = rays.radiance(j, k);
             const double sine = std::sqrt((j + 0.5) / rings);
             // (n x n') points across for a normal n' that turns outward in a right-handed frame.
-            add(turned, across, here, sine / std::sqrt(1 - sine * sine) * pi / (rings * sectors));
+            add(turned, across, here, sine / std::sqrt(1 - sine * sine) * pi / rays.strata.count());
             const double sine_low = std::sqrt(static_cast<double>(j) / rings);
             const double sine_high = std::sqrt((j + 1.0) / rings);
             if (j > 0) {
-                const double near = std::max(least, std::min(rays.distance[r][s], rays.distance[r - 1][s]));
+                const double near = std::max(least, std::min(rays.distance(j, k), rays.distance(j - 1, k)));
                 const double cos2 = 1 - sine_low * sine_low;
-                add(moved, outward, here - rays.radiance[r - 1][s],
-                    2 * pi / sectors * sine_low * cos2 / near);
+                add(moved, outward, here - rays.radiance(j - 1, k), 2 * pi / sectors * sine_low * cos2 / near);
             }
-            const double near = std::max(least, std::min(rays.distance[r][s], rays.distance[r][before]));
-            add(moved, across_low, here - rays.radiance[r][before], (sine_high - sine_low) / near);
+            const double near = std::max(least, std::min(rays.distance(j, k), rays.distance(j, before)));
+            add(moved, across_low, here - rays.radiance(j, before), (sine_high - sine_low) / near);
         }
     }
     for (std::size_t i = 0; i < 3; ++i) {
@@ -278,12 +292,12 @@ void find_gradients(const GatherRays& rays, const Frame& frame, double least, Re
 // gradient allows.
 float trusted_reach(const GatherRays& rays, const Record& record, double share, double scene_radius) {
     double inverse = 0, least = infinity;
-    for (const auto& ring : rays.distance)
-        for (const double d : ring) {
-            inverse += 1 / std::max(d, 1e-9 * scene_radius);
-            least = std::min(least, d);
-        }
-    double reach = inverse > 0 ? share * rings * sectors / inverse : scene_radius;
+    for (int i = 0; i < rays.strata.count(); ++i) {
+        const double d = rays.distances[static_cast<std::size_t>(i)];
+        inverse += 1 / std::max(d, 1e-9 * scene_radius);
+        least = std::min(least, d);
+    }
+    double reach = inverse > 0 ? share * rays.strata.count() / inverse : scene_radius;
     reach = std::min(reach, least);
     const Vec3f slope = record.moved[0] * 0.2126f + record.moved[1] * 0.7152f + record.moved[2] * 0.0722f;
     const double steep = glm::length(slope);
@@ -291,24 +305,27 @@ float trusted_reach(const GatherRays& rays, const Record& record, double share, 
     return static_cast<float>(reach);
 }
 
-Record make_record(const IrradianceField& field, const World& world, const PhotonMap& map, const Site& site) {
+Record make_record(const IrradianceField& field, const World& world, const PhotonMap& map, Strata strata,
+                   const Site& site) {
     Record record;
     const Photon& photon = map.photons[site.photon];
     const std::optional<Hit> hit = hit_of_photon(world, photon);
     if (!hit) return record; // cannot be: the site was made from such a hit
     Rng rng = make_rng(field.seed, Pass::render, hash_words(site.photon, 0x6a09e667f3bcc908ull));
     const Frame frame = make_frame(Vec3(site.normal));
-    const GatherRays rays = shoot({field, world, map}, *hit, frame, rng);
+    const GatherRays rays = shoot({field, world, map}, *hit, frame, strata, rng);
     record.irradiance = irradiance_of(rays);
     find_gradients(rays, frame, field.levels.back().spacing, record);
-    record.reach = trusted_reach(rays, record, trusted_share * std::sqrt(field.shrink), world.radius);
+    record.reach = trusted_reach(rays, record, trusted_share * std::sqrt(field.settings.shrink), world.radius);
     return record;
 }
 
 const Record& record_of(const IrradianceField& field, Level& level, std::uint32_t index, const World& world,
                         const PhotonMap& map) {
     std::call_once(level.asked[index], [&] {
-        level.records[index] = make_record(field, world, map, level.sites[index]);
+        const auto number = static_cast<std::size_t>(&level - field.levels.data());
+        const Strata strata = level_strata[number + 2 - static_cast<std::size_t>(field.settings.effort)];
+        level.records[index] = make_record(field, world, map, strata, level.sites[index]);
         ++field.records;
     });
     return level.records[index];
@@ -354,12 +371,13 @@ struct Blend {
 } // namespace
 
 std::shared_ptr<const IrradianceField> make_irradiance_field(const World& world, const PhotonMap& map,
-                                                             const Progress& progress, double shrink) {
+                                                             const FieldSettings& settings,
+                                                             const Progress& progress) {
     auto field = std::make_shared<IrradianceField>();
-    field->shrink = shrink;
+    field->settings = settings;
     field->seed = static_cast<std::uint64_t>(map.pass);
     if (map.photons.empty() || map.tree.count == 0) return field;
-    const int neighbours = std::max(8, static_cast<int>(std::lround(lit_neighbours * shrink)));
+    const int neighbours = std::max(8, static_cast<int>(std::lround(lit_neighbours * settings.shrink)));
     field->lit = make_lit_places(world, map, neighbours, progress);
     // From a tenth of the scene's radius down to the mean distance of photons, by halves.
     const double photon_distance = std::sqrt(pi / 100) * map.radius;
@@ -421,12 +439,12 @@ Color gathered_irradiance(const IrradianceField& field, const World& world, cons
     const Frame frame = make_frame(normal);
     Color sum{0};
     double distance = 0;
-    for (int j = 0; j < own_rings; ++j)
-        for (int k = 0; k < own_sectors; ++k) {
-            const Vec3 direction = stratum_direction(j, own_rings, k, own_sectors, rng.uniform2(), frame);
+    for (int j = 0; j < own_strata.rings; ++j)
+        for (int k = 0; k < own_strata.sectors; ++k) {
+            const Vec3 direction = stratum_direction(own_strata, j, k, rng.uniform2(), frame);
             sum += gathered_radiance(scene, leave(hit, direction), rng, distance, scratch);
         }
-    return sum * static_cast<float>(pi / (own_rings * own_sectors));
+    return sum * static_cast<float>(pi / own_strata.count());
 }
 
 std::int64_t record_count(const IrradianceField& field) { return field.records; }

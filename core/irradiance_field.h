@@ -19,12 +19,18 @@ namespace pnr {
 
 struct IrradianceField; // irradiance_field.cpp
 
-// Lists the sites and computes the irradiances that gather rays end at. `map` must have its tree. A field
-// belongs to the world and the map it was made from. `shrink` in (0, 1] is the share of a first pass's widths that
-// this one blurs over, in area: progressive passes make it smaller, so that their mean has ever less bias.
+struct FieldSettings {
+    // In (0, 1]: the share of a first pass's widths that this one blurs over, in area. Progressive passes make it smaller, so
+    // that their mean has ever less bias.
+    double shrink = 1;
+    int effort = 1; // rays that a record is worth: 0 few, where pictures are averaged or may be coarse, 1, or 2 many
+};
+
+// Lists the sites and computes the irradiances that gather rays end at. `map` must have its trees. A field
+// belongs to the world and the map it was made from.
 std::shared_ptr<const IrradianceField> make_irradiance_field(const World& world, const PhotonMap& map,
-                                                             const Progress& progress = {},
-                                                             double shrink = 1);
+                                                             const FieldSettings& settings = {},
+                                                             const Progress& progress = {});
 
 // Irradiance by indirect light (neither straight from a light nor through specular surfaces alone) at a
 // point; `normal` is unit, on the side that is lit. `trust` tells how much the records know about the point:

@@ -21,13 +21,18 @@ Vec3 lit_side(const Hit& hit, const Photon& photon);
 // One in so many photons marks a place.
 inline constexpr std::size_t lit_stride = 4;
 
+// Irradiance by direct and indirect light, and by caustics.
+struct LitIrradiance {
+    Color plain{0}, caustic{0};
+};
+
 // Answers that were given before, by small cells of space and the side that they are asked for. A cell's answer depends on
 // the cell alone, so it is the same whoever asks first.
 struct LitCells {
     struct Slot {
         std::atomic<std::uint64_t> key{0}; // 0: free
         std::atomic<bool> known{false};
-        Color irradiance{0};
+        LitIrradiance light;
     };
     float width = 0; // world units
     std::size_t mask = 0;
@@ -37,18 +42,19 @@ struct LitCells {
 struct LitPlaces {
     struct Place {
         Vec3f normal{0}; // 0: unknown, never taken
-        Color irradiance{0};
+        LitIrradiance light;
     };
     std::vector<Place> places;
     KdTree tree; // over their positions
     mutable LitCells cells;
 };
 
-// `neighbours` photons tell the light at a place. `map` must have its tree.
+// `neighbours` photons tell the light at a place, caustics about as blurred as the places lie apart. `map` must have
+// its trees.
 LitPlaces make_lit_places(const World& world, const PhotonMap& map, int neighbours, const Progress& progress = {});
 
-// Irradiance by all light about a point of the side `normal` (unit), as the nearest place knows it that faces the same way.
-// From any thread.
-Color lit_irradiance(const LitPlaces& lit, Vec3 position, Vec3 normal, std::vector<Neighbour>& scratch);
+// Irradiance about a point of the side `normal` (unit), as the nearest place knows it that faces the same way. From any
+// thread.
+LitIrradiance lit_irradiance(const LitPlaces& lit, Vec3 position, Vec3 normal, std::vector<Neighbour>& scratch);
 
 } // namespace pnr

@@ -13,16 +13,18 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <numeric>
+#include <span>
 #include <system_error>
 
 namespace pnr {
 
 namespace {
 
-std::vector<Vec3f> positions_of(const PhotonMap& map) {
+std::vector<Vec3f> positions_of(std::span<const Photon> photons) {
     std::vector<Vec3f> positions;
-    positions.reserve(map.photons.size());
-    for (const Photon& photon : map.photons) positions.push_back(photon.position);
+    positions.reserve(photons.size());
+    for (const Photon& photon : photons) positions.push_back(photon.position);
     return positions;
 }
 
@@ -51,30 +53,60 @@ float suiting_radius(const PhotonMap& map, const KdTree& tree, int k) {
     return *ninth;
 }
 
-// Photons must already be in their final order.
-void build_caustic_tree(PhotonMap& map) {
-    std::vector<Vec3f> positions;
-    std::vector<std::uint32_t> indices;
-    for (std::size_t i = 0; i < map.photons.size(); ++i) {
-        if (map.photons[i].path() != PhotonPath::caustic) continue;
-        positions.push_back(map.photons[i].position);
-        indices.push_back(static_cast<std::uint32_t>(i));
+double mean_flux(std::span<const Photon> photons) {
+    double sum = 0;
+    for (const Photon& photon : photons) sum += static_cast<double>(luminance(photon.flux));
+    return photons.empty() ? 0 : sum / static_cast<double>(photons.size());
+}
+
+// The irradiance in the middle of a caustic photon's disc, alone there, over that of the light about it.
+constexpr double spot = 0.004;
+
+// Gather radii of a map with its trees.
+void name_radii(PhotonMap& map) {
+    const std::span<const Photon> all(map.photons);
+    if (map.tree.count == 0) {
+        map.caustic_radius = map.radius > 0 ? map.radius : suiting_radius(map, map.caustic, 50);
+        if (!(map.radius > 0)) map.radius = suiting_radius(map, map.caustic, 100);
+        return;
     }
-    map.caustic = build_kdtree(positions);
-    for (std::uint32_t& index : map.caustic.order) index = indices[index];
-    map.caustic_radius = suiting_radius(map, map.caustic, 50);
+    if (!(map.radius > 0)) map.radius = suiting_radius(map, map.tree, 100);
+    if (map.caustic.count == 0) return;
+    // The map's radius holds 100 photons of other light: its irradiance.
+    const double share =
+        2 * mean_flux(all.subspan(map.tree.count)) / (spot * 100 * mean_flux(all.first(map.tree.count)));
+    map.caustic_radius = map.radius * static_cast<float>(std::sqrt(std::clamp(share, 1e-4, 4.0)));
+}
+
+// Of photons in their final order.
+void build_caustic_tree(PhotonMap& map) {
+    map.caustic =
+        kdtree_of_leaf_order(positions_of(std::span<const Photon>(map.photons).subspan(map.tree.count)));
+    map.caustic.order.resize(map.caustic.count);
+    std::iota(map.caustic.order.begin(), map.caustic.order.end(), static_cast<std::uint32_t>(map.tree.count));
 }
 
 } // namespace
 
 void build_photon_tree(PhotonMap& map) {
-    map.tree = build_kdtree(positions_of(map));
-    permute(map.photons, map.tree.order);
-    if (!map.normals.empty()) permute(map.normals, map.tree.order);
-    map.tree.order.clear();
-    map.tree.order.shrink_to_fit();
-    if (!(map.radius > 0)) map.radius = suiting_radius(map, map.tree, 100);
+    std::vector<std::uint32_t> parts[2]; // all but caustic photons, and these
+    for (std::size_t i = 0; i < map.photons.size(); ++i)
+        parts[map.photons[i].path() == PhotonPath::caustic].push_back(static_cast<std::uint32_t>(i));
+    std::vector<std::uint32_t> order;
+    order.reserve(map.photons.size());
+    for (const std::vector<std::uint32_t>& part : parts) {
+        std::vector<Vec3f> positions;
+        positions.reserve(part.size());
+        for (const std::uint32_t i : part) positions.push_back(map.photons[i].position);
+        KdTree tree = build_kdtree(positions);
+        for (const std::uint32_t i : tree.order) order.push_back(part[i]);
+        if (&part == parts) map.tree = std::move(tree);
+    }
+    map.tree.order = {};
+    permute(map.photons, order);
+    if (!map.normals.empty()) permute(map.normals, order);
     build_caustic_tree(map);
+    name_radii(map);
 }
 
 // ---- files
@@ -83,7 +115,7 @@ void build_photon_tree(PhotonMap& map) {
 namespace {
 
 constexpr std::array<char, 8> magic{'p', 'n', 'r', 'p', 'h', 'o', 't', '\n'};
-constexpr std::uint32_t file_version = 1;
+constexpr std::uint32_t file_version = 2;
 constexpr std::uint32_t byte_order = 0x01020304;
 
 // All members are written as they stand; the checksum covers everything behind it.
@@ -95,8 +127,8 @@ struct Header {
     std::uint64_t photons, normals;
     std::int64_t emitted;
     std::array<double, 9> balance; // emitted, absorbed, escaped
-    float radius;
-    std::uint32_t has_tree;
+    float radius, caustic_radius;
+    std::uint64_t has_tree;
 };
 static_assert(std::is_trivially_copyable_v<Header> && std::is_trivially_copyable_v<Photon>);
 constexpr std::size_t checksum_end = offsetof(Header, scene_hash);
@@ -169,7 +201,8 @@ void save_photons(const PhotonMap& map, std::uint64_t scene_hash, const std::fil
     header.emitted = map.emitted;
     put_balance(map.balance, header.balance);
     header.radius = map.radius;
-    header.has_tree = map.tree.count > 0 ? 1 : 0;
+    header.caustic_radius = map.caustic_radius;
+    header.has_tree = map.tree.count + map.caustic.count > 0 ? 1 : 0;
     const std::size_t photon_bytes = map.photons.size() * sizeof(Photon);
     const std::size_t normal_bytes = map.normals.size() * sizeof(Vec3f);
     std::vector<unsigned char> bytes(sizeof(Header) + photon_bytes + normal_bytes);
@@ -201,8 +234,13 @@ PhotonMap load_photons(std::uint64_t scene_hash, const std::filesystem::path& fi
     at += header.photons * sizeof(Photon);
     if (!map.normals.empty()) std::memcpy(map.normals.data(), at, header.normals * sizeof(Vec3f));
     if (header.has_tree != 0) {
-        map.tree = kdtree_of_leaf_order(positions_of(map));
+        const auto caustic = std::find_if(map.photons.begin(), map.photons.end(), [](const Photon& photon) {
+            return photon.path() == PhotonPath::caustic;
+        });
+        const auto begin = static_cast<std::size_t>(caustic - map.photons.begin());
+        map.tree = kdtree_of_leaf_order(positions_of(std::span<const Photon>(map.photons).first(begin)));
         build_caustic_tree(map);
+        map.caustic_radius = header.caustic_radius;
     }
     return map;
 }

@@ -13,6 +13,7 @@
 
 namespace pnr {
 
+// Caustic: every diffuse or glossy surface before the last one was met, and the last one is met, through mirrors or glass.
 enum class PhotonPath : std::uint8_t { direct = 0, indirect = 1, caustic = 2 };
 
 // 40 bytes. The surface normal of [LW10 Fig. 2] is kept beside it (PhotonMap::normals), since only painted
@@ -40,23 +41,24 @@ struct PowerBalance {
 };
 
 struct PhotonMap {
-    std::vector<Photon> photons; // in emission order, after build_photon_tree in the tree's leaf order; the
-                                 // same for any number of threads
+    std::vector<Photon> photons; // in emission order, after build_photon_tree first those of `tree` in its
+                                 // leaf order, then the caustic ones; the same for any number of threads
     std::vector<Vec3f> normals;  // unit, of the side hit, one per photon; empty when nothing is painted
-    KdTree tree;                 // over photons' positions
-    KdTree caustic; // over those of the caustic photons alone; `order` holds indices into photons
-    std::int64_t emitted = 0;
+    KdTree tree;                 // over the positions of all photons but the caustic ones
+    KdTree caustic;              // over those of the caustic ones; `order` holds indices into photons
+    std::int64_t emitted = 0;    // without those aimed at what throws caustics
     int pass = 0; // of progressive passes; others than the first have other random numbers
     PowerBalance balance;
     float radius = 0;         // gather radius cap in world units that suits this map
-    float caustic_radius = 0; // likewise for its caustic photons, which lie closer; 0 if there are none
+    float caustic_radius = 0; // likewise for its caustic photons; 0 if there are none
     std::shared_ptr<const IrradianceField>
         field; // smooth indirect light over this map; null: density estimates alone
 };
 
-// Sorts photons and normals into the leaf order of a kd-tree over them, so that neighbours lie together in
-// memory, and names a gather radius if the map has none: what holds 100 photons for nine tenths of the map's
-// photons. Caustic photons get a tree and a radius (for 50) of their own.
+// Sorts photons and normals into the leaf order of two kd-trees over them, so that neighbours lie together in
+// memory, and names a gather radius if the map has none: what holds 100 photons for nine tenths of the tree's
+// photons. Caustic photons get a radius of their own: beside other light what one of them cannot show as a spot
+// within, where they are alone what holds 50 of them.
 void build_photon_tree(PhotonMap& map);
 
 // Own versioned binary file with a checksum and the scene's hash. load throws FileError for a file that can't

@@ -75,14 +75,16 @@ Image<float> box_mean(const Image<float>& image, PixelRect window, int apron) {
 
 } // namespace
 
-ProgressiveStep progressive_step(int pass, Illumination illumination, Integrator integrator) {
+bool large_picture(int width, int height) { return static_cast<std::int64_t>(width) * height > 400'000; }
+
+ProgressiveStep progressive_step(int pass, Illumination illumination, Integrator integrator, bool large) {
     ProgressiveStep step;
-    const bool mapped = illumination == Illumination::photon_mapped && integrator == Integrator::photons;
+    const bool previewed = large && illumination == Illumination::photon_mapped && integrator == Integrator::photons;
     const bool photons = illumination != Illumination::raytraced && integrator == Integrator::photons;
-    step.preview = mapped && pass == 0;
-    const int n = mapped ? std::max(0, pass - 1) : pass;
+    step.preview = previewed && pass == 0;
+    const int n = previewed ? std::max(0, pass - 1) : pass;
     step.batch = n / batch_length;
-    step.begins_batch = photons && !(mapped && pass == 1) && n % batch_length == 0;
+    step.begins_batch = photons && !(previewed && pass == 1) && n % batch_length == 0;
     step.samples = {n % batch_length, 1};
     step.shrink = photons ? shrink_of(step.batch) : 1;
     return step;
@@ -92,6 +94,7 @@ Settings settings_of(const ProgressiveStep& step, const Settings& settings) {
     Settings own = settings;
     if (step.batch > 0)
         own.render.seed = hash_words(settings.render.seed, static_cast<std::uint64_t>(step.batch));
+    own.render.gather_effort = 0; // the batches' mean knows more
     own.render.samples_min = batch_length; // the shadow rays asked for are shared by the passes of a batch
     own.photons.gather_max = std::max(8, static_cast<int>(std::lround(settings.photons.gather_max * step.shrink)));
     own.photons.gather_min = std::min(own.photons.gather_max, settings.photons.gather_min);

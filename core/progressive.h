@@ -19,13 +19,17 @@ namespace pnr {
 struct ProgressiveStep {
     int batch = 0;
     bool begins_batch = false; // its photon map is still to be traced
-    // The very first look at a photon-mapped scene: light straight from the photon map, blurred but soon there. It counts
-    // for nothing as soon as another pass is done.
+    // The very first look at a large picture of a photon-mapped scene: light straight from the photon map, blurred but soon
+    // there. It counts for nothing as soon as another pass is done.
     bool preview = false;
     SampleRange samples;
     double shrink = 1; // area over which this batch blurs, as a share of the first one's, in (0, 1]
 };
-ProgressiveStep progressive_step(int pass, Illumination illumination, Integrator integrator);
+// `large`: as large_picture says.
+ProgressiveStep progressive_step(int pass, Illumination illumination, Integrator integrator, bool large);
+
+// Whether a picture's first pass takes so long that a preview is worth its time.
+bool large_picture(int width, int height);
 
 // The settings of a step's batch: seed, photons in a gather, gather radius.
 Settings settings_of(const ProgressiveStep& step, const Settings& settings);

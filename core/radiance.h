@@ -30,8 +30,6 @@ struct GatherSettings {
 // rejected. `scratch` is reused between calls.
 Color gather(const World& world, const PhotonMap& map, const GatherSettings& settings, Vec3 position,
              const Bsdf& bsdf, Vec3 outgoing, std::vector<Neighbour>& scratch);
-// The same for the caustic photons alone, which lie closer.
-GatherSettings caustic_gather(const PhotonMap& map, const GatherSettings& settings);
 // The settings that suit a map and a scene when the author gave none.
 GatherSettings default_gather(const World& world, const PhotonMap& map, const PhotonSettings& settings);
 

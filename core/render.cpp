@@ -304,7 +304,8 @@ void write_pixel(const Job& job, int x, int y, RenderResult& result) {
         job.shading.indirect.count > 0 ? job.shading.indirect : job.shading.caustic;
     if (seen.z > 0 && gathers.count > 0 && !job.shading.map.photons.empty()) {
         std::vector<Neighbour> found;
-        find_within(job.shading.map.tree, seen.position, gathers.radius, found);
+        const PhotonMap& map = job.shading.map;
+        find_within(map.tree.count > 0 ? map.tree : map.caustic, seen.position, gathers.radius, found);
         result.parts.photon_density.at(x, y) =
             static_cast<float>(static_cast<double>(found.size()) / (pi * gathers.radius * gathers.radius));
     }
@@ -315,7 +316,8 @@ void choose_gathers(Shading& shading, const PhotonSettings& photons) {
     shading.indirect.count = shading.caustic.count = 0;
     if (shading.map.photons.empty()) return;
     const GatherSettings both = default_gather(shading.world, shading.map, photons);
-    shading.caustic = caustic_gather(shading.map, both);
+    shading.caustic = both;
+    shading.caustic.direct = shading.caustic.indirect = false;
     if (shading.map.caustic.count == 0) shading.caustic.count = 0;
     if (shading.world.illumination != Illumination::photon_mapped) return;
     shading.indirect = both;

@@ -62,6 +62,7 @@ struct RenderSettings {
     int samples_max = 16;           // ... and where neighbours differ by more than `contrast`
     double contrast = 0.04;         // relative difference that asks for more samples
     GridSampling grid;              // in their place where a picture is raytraced as POV-Ray would
+    int gather_effort = 1;          // FieldSettings::effort
     bool sharp = true;              // indirect light is gathered anew where the field's records lie too far apart
     int max_trace_level = 10;       // specular chain length; POV-Ray scenes (`.pov`) get 5
     double adc_bailout = 1.0 / 255; // a chain of smaller weight than this is given up

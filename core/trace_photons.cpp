@@ -33,9 +33,14 @@ struct Flight {
     glm::dvec3 flux{0};
     int bounces = 0;
     bool scattered = false; // by a diffuse or glossy surface, at least once
-    bool specular = false;  // by a mirror or glass, at least once
+    bool specular = false;  // by a mirror or glass just now
+    // Whether every diffuse or glossy surface on the way was met through a mirror or glass: such light is a
+    // caustic, also the second time. Final gathering would find it with much noise, photons find it by themselves.
+    bool focused = true;
+    bool aimed = false;     // a photon of a share of caustics
+    bool at_target = false; // the first surface met is one of EmissionPlan::targets
     double length = 0;      // of the path so far
-    bool booked = true;     // counts in the power balance (an emitter's)
+    bool booked = true;     // counts in the power balance (an emitter's, of all light)
     bool settled = true;    // a POV-Ray light's photon: whether distance and fading are in its flux
 };
 
@@ -165,10 +170,11 @@ struct Tracer {
     }
 
     void store(const Hit& hit, const Bsdf& bsdf, const Surface& surface, const Flight& flight) const {
-        const PhotonPath path = flight.bounces == 0 ? PhotonPath::direct
-                                : flight.scattered  ? PhotonPath::indirect
-                                                    : PhotonPath::caustic;
-        if (world.caustics_apart && path != PhotonPath::caustic) return;
+        const PhotonPath path = flight.bounces == 0                 ? PhotonPath::direct
+                                : flight.focused && flight.specular ? PhotonPath::caustic
+                                                                    : PhotonPath::indirect;
+        if ((world.caustics_apart || flight.aimed) && path != PhotonPath::caustic) return;
+        if (path == PhotonPath::caustic && !flight.aimed && flight.at_target) return; // left to those that aim
         Photon photon;
         photon.position = Vec3f(hit.position);
         photon.direction = Vec3f(flight.ray.direction);
@@ -215,7 +221,10 @@ struct Tracer {
         flight.length += distance;
         fade_inside(material, bsdf, distance, flight);
         const bool diffuse = has_diffuse(bsdf);
-        if (!flight.booked) {
+        if (flight.bounces == 0)
+            flight.at_target = !plan.aimed_at.empty() && plan.aimed_at[static_cast<std::size_t>(surface.object)] != 0;
+        if (flight.aimed && !flight.at_target) return false;
+        if (!light.is_emitter()) {
             if (!settle(light, *hit, diffuse, flight)) return false;
             if (glm::distance(hit->position, plan.focus.center) > emission_reach * plan.focus.radius)
                 return false;
@@ -238,12 +247,14 @@ struct Tracer {
         if (out.event == Event::absorbed || !(largest(out.flux) > 0)) return false;
         if (!caustic_allowed(material.photons, out.event)) return false;
         flight.flux = out.flux;
-        if (out.event == Event::scattered)
+        if (out.event == Event::scattered) {
             flight.scattered = true;
-        else
-            flight.specular = true;
+            flight.focused = flight.focused && flight.specular;
+        }
+        flight.specular = out.event != Event::scattered;
         // Caustics alone: light that a diffuse surface has scattered is not wanted.
         if (flight.scattered && world.caustics_apart) return false;
+        if (flight.aimed && !flight.focused) return false;
         if (++flight.bounces > free_bounces) {
             if (numbers.rng.uniform() >= late_survival(flight.bounces)) return false;
             flight.flux /= late_survival(flight.bounces);
@@ -253,14 +264,20 @@ struct Tracer {
     }
 };
 
+std::uint64_t seed_of(const LightShare& share, std::uint64_t seed) {
+    const auto number = static_cast<std::uint64_t>(share.light);
+    return hash_words(seed, share.caustics ? ~number : number);
+}
+
 } // namespace
 
 PhotonMap trace_photons(const World& world, const PhotonSettings& settings, std::uint64_t seed, int pass,
                         bool keep_normals, const Progress& progress) {
     PhotonMap map;
     map.radius = static_cast<float>(settings.radius);
-    const EmissionPlan plan = plan_emission(world, settings);
-    map.emitted = plan.count;
+    EmissionPlan plan = plan_emission(world, settings);
+    find_cells(world, plan, seed);
+    map.emitted = plan.everywhere;
     map.pass = pass;
     std::vector<Chunk> chunks(
         static_cast<std::size_t>((plan.count + photons_per_chunk - 1) / photons_per_chunk));
@@ -280,13 +297,15 @@ PhotonMap trace_photons(const World& world, const PhotonSettings& settings, std:
                 const std::uint64_t index =
                     static_cast<std::uint64_t>(i - share->first) +
                     static_cast<std::uint64_t>(pass) * static_cast<std::uint64_t>(share->count);
-                const std::uint64_t light_seed = hash_words(seed, static_cast<std::uint64_t>(share->light));
-                const EmittedPhoton emitted = emit_photon(world, *share, index, light_seed);
+                const std::uint64_t light_seed = seed_of(*share, seed);
+                const EmittedPhoton emitted = emit_photon(world, plan, *share, index, light_seed);
                 Flight flight;
                 flight.ray = emitted.ray;
                 flight.flux = glm::dvec3(emitted.flux);
-                flight.booked = light.is_emitter();
-                flight.settled = flight.booked;
+                if (!(largest(flight.flux) > 0)) continue;
+                flight.aimed = share->caustics;
+                flight.booked = light.is_emitter() && !flight.aimed;
+                flight.settled = light.is_emitter();
                 if (flight.booked) chunk.balance.emitted += flight.flux;
                 PathNumbers numbers{index, light_seed, make_rng(light_seed, Pass::photons, index)};
                 while (tracer.step(light, flight, numbers)) {}

@@ -21,7 +21,7 @@ PhotonMap some_map(bool normals) {
         photon.position = Vec3f(Vec3(xy, 0));
         photon.direction = {0, 0, -1};
         photon.flux = Color(static_cast<float>(i));
-        photon.tag = photon_tag(static_cast<int>(i), i % 2 == 0, PhotonPath::caustic);
+        photon.tag = photon_tag(static_cast<int>(i), i % 2 == 0, i % 3 == 0 ? PhotonPath::caustic : PhotonPath::indirect);
         map.photons.push_back(photon);
         if (normals) map.normals.push_back({0, static_cast<float>(i), 1});
     }
@@ -55,20 +55,33 @@ TEST(PhotonMap, TagHoldsItsParts) {
     EXPECT_EQ(photon.path(), PhotonPath::caustic);
 }
 
-TEST(PhotonMap, TreeSortsPhotonsAndNormalsTogether) {
+TEST(PhotonMap, TreesSortPhotonsAndNormalsTogether) {
     PhotonMap map = some_map(true);
     build_photon_tree(map);
-    ASSERT_EQ(map.tree.count, 1000u);
+    ASSERT_EQ(map.tree.count, 666u);
+    ASSERT_EQ(map.caustic.count, 334u);
     std::vector<Neighbour> found;
     for (std::uint32_t i = 0; i < 1000; i += 17) {
         EXPECT_EQ(map.normals[i].y, map.photons[i].flux.x);
-        find_nearest(map.tree, map.photons[i].position, 1, std::numeric_limits<float>::infinity(), found);
+        EXPECT_EQ(map.photons[i].path() == PhotonPath::caustic, i >= 666);
+        find_nearest(i < 666 ? map.tree : map.caustic, map.photons[i].position, 1,
+                     std::numeric_limits<float>::infinity(), found);
         EXPECT_EQ(found[0].index, i);
     }
-    // 100 of 1000 photons spread over the unit square lie within sqrt(0.1 / pi) = 0.178 of a point well
+    // 100 of 666 photons spread over the unit square lie within sqrt(0.15 / pi) = 0.219 of a point well
     // inside.
-    EXPECT_GT(map.radius, 0.17f);
-    EXPECT_LT(map.radius, 0.36f); // twice that in a corner
+    EXPECT_GT(map.radius, 0.20f);
+    EXPECT_LT(map.radius, 0.44f); // twice that in a corner
+}
+
+TEST(PhotonMap, CausticsAloneHaveTheirOwnRadius) {
+    PhotonMap map = some_map(false);
+    std::erase_if(map.photons, [](const Photon& photon) { return photon.path() != PhotonPath::caustic; });
+    build_photon_tree(map);
+    EXPECT_EQ(map.tree.count, 0u);
+    EXPECT_EQ(map.caustic.count, 334u);
+    EXPECT_GT(map.caustic_radius, 0.20f); // 50 of 334
+    EXPECT_LT(map.caustic_radius, 0.44f);
 }
 
 TEST(PhotonMap, EmptyMapHasAnEmptyTree) {
@@ -94,6 +107,9 @@ TEST_F(PhotonFile, LoadsWhatWasSaved) {
         EXPECT_EQ(loaded.balance.escaped, map.balance.escaped);
         EXPECT_EQ(loaded.radius, map.radius);
         EXPECT_EQ(loaded.tree.x, map.tree.x);
+        EXPECT_EQ(loaded.caustic.x, map.caustic.x);
+        EXPECT_EQ(loaded.caustic.order, map.caustic.order);
+        EXPECT_EQ(loaded.caustic_radius, map.caustic_radius);
         ASSERT_EQ(loaded.tree.nodes.size(), map.tree.nodes.size());
         EXPECT_EQ(std::memcmp(loaded.tree.nodes.data(), map.tree.nodes.data(),
                               map.tree.nodes.size() * sizeof(KdNode)),

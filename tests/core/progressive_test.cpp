@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/progressive.h"
 
-#include "core/irradiance_field.h"
-#include "core/trace_photons.h"
 #include "light_scenes.h"
+#include "run_passes.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +19,7 @@ RenderResult flat_pass(int width, int height, float value) {
 }
 
 ProgressiveStep mapped_step(int pass) {
-    return progressive_step(pass, Illumination::photon_mapped, Integrator::photons);
+    return progressive_step(pass, Illumination::photon_mapped, Integrator::photons, true);
 }
 
 TEST(ProgressiveStep, AreasShrinkAsKnausAndZwickerSay) {
@@ -39,7 +38,11 @@ TEST(ProgressiveStep, EveryBatchTakesEachSampleOnceAndTracesItsPhotonsFirst) {
         EXPECT_EQ(step.batch * 4 + step.samples.first, pass - 1);
         EXPECT_EQ(step.begins_batch, pass > 1 && step.samples.first == 0);
     }
-    const ProgressiveStep plain = progressive_step(4, Illumination::raytraced, Integrator::photons);
+    const ProgressiveStep small = progressive_step(4, Illumination::photon_mapped, Integrator::photons, false);
+    EXPECT_TRUE(small.begins_batch) << "without a preview the passes count from the first one";
+    EXPECT_EQ(small.batch, 1);
+    EXPECT_FALSE(progressive_step(0, Illumination::photon_mapped, Integrator::photons, false).preview);
+    const ProgressiveStep plain = progressive_step(4, Illumination::raytraced, Integrator::photons, true);
     EXPECT_FALSE(plain.begins_batch) << "nothing to trace";
     EXPECT_EQ(plain.batch, 1);
 }
@@ -116,27 +119,6 @@ TEST(ErrorBound, HoldsTheTruthForNineTenthsOfPixels) {
     EXPECT_TRUE(std::isinf(error_bound_90(1, 0, 1)));
 }
 
-// A whole run as the command line does it.
-ProgressiveSum run_passes(const World& world, const Settings& settings, int passes) {
-    const PictureView view{world.camera, settings.render.width, settings.render.height};
-    const PixelRect window{0, 0, view.width, view.height};
-    const GBuffer gbuffer = make_gbuffer(world, view, window, settings.render);
-    ProgressiveSum sum;
-    PhotonMap map;
-    for (int pass = 0; pass < passes; ++pass) {
-        const ProgressiveStep step = progressive_step(pass, world.illumination, settings.render.integrator);
-        const Settings own = settings_of(step, settings);
-        if (pass == 0 || step.begins_batch) {
-            map = trace_photons(world, own.photons, settings.render.seed, step.batch, false);
-            build_photon_tree(map);
-            map.radius *= static_cast<float>(std::sqrt(step.shrink));
-        }
-        if (pass > 0 && !map.field) map.field = make_irradiance_field(world, map, {}, step.shrink);
-        add_pass(sum, step, render(world, gbuffer, map, own, window, false, {}, step.samples));
-    }
-    return sum;
-}
-
 // The photons of a furnace lie under all its pixels at once, so one run's pixels are right or wrong together: the share is
 // taken over several runs.
 TEST(Progressive, TheFurnaceIsWithinTheStatedError) {
@@ -149,7 +131,7 @@ TEST(Progressive, TheFurnaceIsWithinTheStatedError) {
         Settings settings = test::small_settings(side, side);
         settings.photons.count = 6000;
         settings.render.seed = static_cast<std::uint64_t>(100 + run);
-        const ProgressiveSum sum = run_passes(build_world(scene, settings), settings, 1 + 4 * 6);
+        const ProgressiveSum sum = test::run_passes(build_world(scene, settings), settings, 1 + 4 * 6, true);
         for (const Color c : sum.mean.color.pixels) mean += static_cast<double>(luminance(c)) / (runs * side * side);
         share += covered(sum, {0, 0, side, side}, [&](int, int) { return truth; }) / runs;
     }

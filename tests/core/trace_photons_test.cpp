@@ -343,3 +343,36 @@ TEST(TracePhotons, StopsWhenAsked) {
         trace_photons(world, settings, 1, 0, false, [](std::int64_t, std::int64_t) { return false; }),
         Interrupted);
 }
+
+// Photons that aim at glass bring what the lamp sends there: balls of ior 1 bend and reflect nothing, so that the flux
+// behind them is the lamp's power times the form factors from it to the balls.
+TEST(TracePhotons, AimedPhotonsBringTheLampsOwnLightThroughGlassThatBendsNothing) {
+    Scene scene;
+    scene.objects.push_back(object_of(Box{{-50, -1, -50}, {50, 0, 50}}, Color(0.5f)));
+    for (const double x : {0.0, 1.5}) {
+        Object ball = object_of(Sphere{{x, 2, 0}, 0.25}, Color(1), 0);
+        ball.texture->pigment.map[0].color.transmit = 1;
+        scene.objects.push_back(ball);
+    }
+    scene.lights.push_back(emitter_of({EmitterShape::disc, 0.5, {0, -1, 0}, {}, {}, 8.0, {}}, {0.3, 6, 0.2}));
+    const PhotonMap map = trace(scene, 40000);
+    EXPECT_EQ(map.emitted, 40000);
+    std::size_t caustic = 0;
+    for (const Photon& p : map.photons) caustic += p.path() == PhotonPath::caustic;
+    EXPECT_GT(caustic, 30000u); // nearly all that were aimed
+    // The share of the lamp's power that meets each ball: by rays from its points to the ball's discs.
+    double truth = 0;
+    const int n = 400;
+    for (int i = 0; i < n * n; ++i) {
+        const Vec2 u((i % n + 0.5) / n, (i / n + 0.5) / n);
+        const Vec3 from = Vec3(0.3, 6, 0.2) + 0.5 * Vec3(square_to_disc(u).x, 0, square_to_disc(u).y);
+        for (const double x : {0.0, 1.5}) { // form factor from a small area to a sphere: (r / d)^2 cos
+            const Vec3 to = Vec3(x, 2, 0) - from;
+            const double d2 = glm::dot(to, to);
+            truth += 0.0625 / d2 * (-to.y / std::sqrt(d2)) / (n * n);
+        }
+    }
+    truth *= pi * 8 * pi * 0.25; // the lamp's power
+    const double found = stored_flux(map, [](const Photon& p) { return p.path() == PhotonPath::caustic; }).x;
+    EXPECT_NEAR(found, truth, 0.005 * truth);
+}
