@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace pnr {
 
 namespace {
@@ -53,11 +55,9 @@ std::int64_t ray_work(const Object& object) {
     std::int64_t work = 50;
     if (object.shape) {
         if (const auto* julia = std::get_if<JuliaFractal>(&*object.shape)) work += 400 * julia->data->max_iteration;
-        if (std::holds_alternative<Isosurface>(*object.shape) || std::holds_alternative<Parametric>(*object.shape))
-            work += 2'000;
+        if (std::holds_alternative<Isosurface>(*object.shape)) work += 500;
     }
-    for (const Object& child : object.children)
-        if (work < 100'000) work += ray_work(child) / 4; // most boxes are missed
+    for (const Object& child : object.children) work = std::max(work, ray_work(child)); // most boxes are missed
     return work;
 }
 

@@ -167,7 +167,14 @@ double FunctionField::operator()(Vec3 p) const {
 
 void charge_calls(Parser& p, const Token& at, const Function& function, double calls) {
     constexpr double instructions = 10; // in the time of a token
-    charge_work(p, at, static_cast<std::int64_t>(std::min(function.cost / instructions * calls, 1e15)));
+    p.in.used.tokens += static_cast<std::int64_t>(std::min(function.cost / instructions * calls, 1e15));
+    if (p.in.used.tokens > p.in.options.budgets.tokens)
+        stop_at_limit(p, at, &Budgets::tokens, "this function takes more work than a scene may ask for");
+}
+
+void charge_costly(Parser& p, const Token& at, const Function& function) {
+    constexpr double costly = 1e4, calls = 1000;
+    if (function.cost > costly) charge_calls(p, at, function, calls);
 }
 
 VectorValue call_function(Parser& p, const Token& name, const std::shared_ptr<const Function>& function) {

@@ -85,6 +85,8 @@ struct FunctionField {
 
 // Counts what it takes to call the function so often, as tokens.
 void charge_calls(Parser& p, const Token& at, const Function& function, double calls);
+// The same for a surface or a pattern, which will ask very often, if a single call takes long.
+void charge_costly(Parser& p, const Token& at, const Function& function);
 
 // `function [(names)] { expression }`, the word being next. Without names they are x, y, z, and u, v mean x,
 // y. What we cannot evaluate is read and marked as unsupported.

@@ -55,7 +55,10 @@ FieldProgram parse_field(Parser& p, std::string_view what, double otherwise) {
     const Token word = peek(p);
     if (!at(p, "function"_kw)) fail(p, word, fmt::format("`{}` needs a `function {{ ... }}` first", what));
     const auto function = parse_function(p);
-    if (function->unsupported.empty()) return field_program(function);
+    if (function->unsupported.empty()) {
+        charge_costly(p, word, *function);
+        return field_program(function);
+    }
     warn_unsupported(p, word, fmt::format("{} of {}", what, function->unsupported), "it is left out");
     FieldProgram constant;
     constant.steps.push_back({FieldOp::constant, 0, 0, 0, 0, otherwise});

@@ -175,6 +175,8 @@ TEST(Limits, TextsThatFillTheMemory) {
 TEST(Limits, FunctionsThatTakeLong) {
     const std::string texts[] = {
         "#declare F = function(x, y) { sum(i, 1, 100000, sin(i * x)) }; height_field { function 4000, 4000 { F(x, y) } }",
+        "isosurface { function { sum(i, 1, 1000000, sin(i * x)) } contained_by { box { -1, 1 } } }",
+        "sphere { 0, 1 pigment { function { sum(i, 1, 1000000, i * x) } } }",
         "#declare F = function(x) { sum(i, 1, x, sin(i)) }; #while (1) #declare A = F(1e5); #end",
         "#declare F = function(n) { n }; #for (I, 1, 9) #declare F = function(n) { sum(i, 1, 1000, F(i)) }; #end",
         "#while (1) #declare A = file_exists(\"nothing\"); #end",
