@@ -117,6 +117,7 @@ struct PaintStyle {
     double field_weight = 0;                // share of the field beside seeds in the blend; 0: one alone
     double radius = 5;                      // of the informative map's disc
     Fill fill = Fill::nearest;
+    bool folds = false; // the disc does not reach over a fold of its object
     double length = 26;             // of the whole ILIC path, both sides
     double cell = 4.5;              // width of a noise cell
     double noise_lightness = 0.035; // standard deviations of the result, Oklab L ...

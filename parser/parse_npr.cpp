@@ -150,8 +150,10 @@ void parse_interpolation(Parser& p, PaintWord& word) {
                 unexpected(p, "fill", {"nearest"_kw, "random"_kw});
             const Fill fill = accept(p, "random"_kw) ? Fill::random : (next(p), Fill::nearest);
             word.said.emplace_back([fill](PaintStyle& style) { style.fill = fill; });
+        } else if (accept(p, "folds"_kw)) {
+            word.said.emplace_back([folds = parse_optional_bool(p)](PaintStyle& style) { style.folds = folds; });
         } else
-            unexpected(p, "interpolation", {"radius"_kw, "fill"_kw});
+            unexpected(p, "interpolation", {"radius"_kw, "fill"_kw, "folds"_kw});
     });
 }
 
