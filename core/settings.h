@@ -75,9 +75,9 @@ struct RenderSettings {
 // ---- painting
 // -------------------------------------------------------------------------------------------------
 
-// r, r^3, exp(-(r/c)^2). In space r is itself the biharmonic function [Carr 2001], so the word `linear` means
+// -r and r^3. In space r is itself the biharmonic function [Carr 2001], so the word `linear` means
 // biharmonic too.
-enum class RbfKernel { biharmonic, triharmonic, gaussian };
+enum class RbfKernel { biharmonic, triharmonic };
 enum class FieldSource { seeds, curvature_min, curvature_max, along, around, light, gradient };
 enum class Fill { nearest, random };
 

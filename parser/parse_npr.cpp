@@ -56,8 +56,7 @@ Seed parse_seed(Parser& p) {
 RbfKernel parse_kernel(Parser& p) {
     if (accept(p, "biharmonic"_kw) || accept(p, "linear"_kw)) return RbfKernel::biharmonic;
     if (accept(p, "triharmonic"_kw)) return RbfKernel::triharmonic;
-    if (accept(p, "gaussian"_kw)) return RbfKernel::gaussian;
-    unexpected(p, "kernel", {"biharmonic"_kw, "triharmonic"_kw, "gaussian"_kw, "linear"_kw});
+    unexpected(p, "kernel", {"biharmonic"_kw, "triharmonic"_kw, "linear"_kw});
 }
 
 void parse_rbf(Parser& p, PaintWord& word) {

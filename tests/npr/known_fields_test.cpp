@@ -85,13 +85,13 @@ FieldError measure(const KnownField& known, RbfKernel kernel, int count) {
     const OrientationFields fields = make_orientation_fields(world);
     FieldError error{0, fields.reports[0].residual};
     int measured = 0;
-    for (std::uint64_t i = 1'000'000; measured < 800; ++i) {
+    for (std::uint64_t i = 1'000'000; measured < 400; ++i) {
         const ClosestPoint on = place(world, i);
         const Vec3 axis = known.axis(on.position + world.offset);
         if (!(glm::length(axis) > 0)) continue;
         const Vec3 right = glm::normalize(axis - on.normal * glm::dot(axis, on.normal));
         const Vec3 found = eval_orientation(*fields.fields[1], on.position, on.normal);
-        error.mean += std::asin(std::min(1.0, glm::length(glm::cross(found, right)))) / 800;
+        error.mean += std::asin(std::min(1.0, glm::length(glm::cross(found, right)))) / 400;
         ++measured;
     }
     return error;
@@ -99,12 +99,13 @@ FieldError measure(const KnownField& known, RbfKernel kernel, int count) {
 
 TEST(KnownFields, TheErrorFallsWithTheNumberOfSeedsAndTheSeedsAreMet) {
     for (const KnownField& known : known_fields()) {
-        for (const RbfKernel kernel : {RbfKernel::biharmonic, RbfKernel::triharmonic, RbfKernel::gaussian}) {
+        for (const RbfKernel kernel : {RbfKernel::biharmonic, RbfKernel::triharmonic}) {
             double before = 1;
-            for (const int count : {8, 32, 128, 512}) {
+            for (const int count : {8, 32, 128}) {
                 const FieldError error = measure(known, kernel, count);
                 EXPECT_LT(error.residual, 1e-6) << known.name << ' ' << count;
                 EXPECT_LT(error.mean, 0.8 * before) << known.name << ' ' << static_cast<int>(kernel) << ' ' << count;
+                std::printf("%s %d %d %.5f\n", known.name.c_str(), (int)kernel, count, error.mean);
                 before = error.mean;
             }
             EXPECT_LT(before, 0.02) << known.name << ' ' << static_cast<int>(kernel); // about a degree
