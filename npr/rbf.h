@@ -15,7 +15,9 @@ namespace pnr {
 // the biharmonic function of space (so `linear` and `biharmonic` are one), needing a constant; r^3 the
 // triharmonic, which needs linear terms to be solvable, so that among coplanar or collinear centres it gets
 // those of their plane or line. Gaussians as wide as 1.5 mean distances to the nearest centre were tried and left: on known
-// fields their error grew with the number of seeds (tests/npr/known_fields_test.cpp: 3 to 4 degrees at 128 seeds).
+// fields their error grew with the number of seeds (tests/npr/known_fields_test.cpp). There 128
+// seeds leave mean errors, in degrees, of 0.38 (biharmonic) and 0.25 (triharmonic) on a sphere, 2.5 and 0.39 on a torus,
+// 0.31 and 0.02 on a cylinder, 0.02 and 0.02 on a saddle.
 struct Rbf {
     RbfKernel kernel = RbfKernel::biharmonic;
     int components = 0;
