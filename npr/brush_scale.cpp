@@ -7,8 +7,8 @@ namespace {
 
 constexpr float give = 1.5f;
 
-// Of a region seen directly in perspective: the median angle of a pixel times the distance to the photons' middle, which
-// stays when the view goes round it. Else the median of what its pixels span.
+// Of a region seen directly in perspective: the median angle of a pixel times the distance to the photons'
+// middle, which stays when the view goes round it. Else the median of what its pixels span.
 bool has_middle(const GBuffer& gbuffer, const Seats& seats, const Region& region) {
     return region.via == 0 && gbuffer.view.camera.projection == Projection::perspective &&
            region.object < seats.photons.size() && !seats.photons[region.object].empty();

@@ -35,7 +35,8 @@ float least_distance(const CellPlan& plan, const Seen& seen) {
 
 constexpr float growing = 0.25f; // a cell that has just found room grows over so much more of it
 
-// Photons in an order of their own, which is the same from everywhere: who is seated stays so when the camera moves.
+// Photons in an order of their own, which is the same from everywhere: who is seated stays so when the camera
+// moves.
 std::vector<Candidate> seat_photons(const CellPlan& plan, std::uint64_t key) {
     std::vector<Candidate> seated;
     if (plan.region.object >= plan.seats.photons.size()) return seated;
@@ -64,21 +65,24 @@ std::vector<Candidate> seat_photons(const CellPlan& plan, std::uint64_t key) {
     return seated;
 }
 
-// A random point of each cube of a lattice in space, laid on the surface: at the pixel that shows the foot of its
-// perpendicular, if that lies in the cube. Nothing of this hangs on the view but the width of the cubes, which goes in steps
-// of powers of two.
-void add_lattice_points(const CellPlan& plan, std::uint64_t key, int x, int y, std::vector<Candidate>& found) {
+// A random point of each cube of a lattice in space, laid on the surface: at the pixel that shows the foot of
+// its perpendicular, if that lies in the cube. Nothing of this hangs on the view but the width of the cubes,
+// which goes in steps of powers of two.
+void add_lattice_points(const CellPlan& plan, std::uint64_t key, int x, int y,
+                        std::vector<Candidate>& found) {
     const Seen& seen = plan.gbuffer.seen.at(x, y);
     const int level = std::ilogb(static_cast<float>(plan.cell) * brush_pixel(plan.scale, seen));
     const float side = std::ldexp(1.0f, level);
     const Vec3f reach = 0.5f * (glm::abs(seen.dpdx) + glm::abs(seen.dpdy));
-    const glm::ivec3 first(glm::floor((seen.position - reach) / side)), last(glm::floor((seen.position + reach) / side));
+    const glm::ivec3 first(glm::floor((seen.position - reach) / side)),
+        last(glm::floor((seen.position + reach) / side));
     if (glm::any(glm::greaterThan(last - first, glm::ivec3(3)))) return; // nearly edge-on
     for (int i = first.x; i <= last.x; ++i)
         for (int j = first.y; j <= last.y; ++j)
             for (int k = first.z; k <= last.z; ++k) {
                 const Vec3f corner(glm::ivec3(i, j, k));
-                const std::uint64_t hash = hash_place(hash_words(key, static_cast<std::uint64_t>(level)), corner);
+                const std::uint64_t hash =
+                    hash_place(hash_words(key, static_cast<std::uint64_t>(level)), corner);
                 const Vec3f inside(unit_float(hash_words(hash, 2)), unit_float(hash_words(hash, 3)),
                                    unit_float(hash_words(hash, 4)));
                 const Vec3f off = (corner + inside) * side - seen.position;
@@ -143,7 +147,8 @@ SiteGrid build_site_grid(std::vector<CellSite> sites, PixelRect box, double buck
     grid.columns = static_cast<int>((box.x1 - box.x0) / bucket) + 1;
     grid.rows = static_cast<int>((box.y1 - box.y0) / bucket) + 1;
     grid.sites = std::move(sites);
-    for (const CellSite& site : grid.sites) grid.largest_radius2 = std::max(grid.largest_radius2, site.radius2);
+    for (const CellSite& site : grid.sites)
+        grid.largest_radius2 = std::max(grid.largest_radius2, site.radius2);
     const auto slot = [&](const CellSite& site) {
         const Vec2f p = (site.at - grid.origin) / grid.bucket;
         const int i = std::clamp(static_cast<int>(p.x), 0, grid.columns - 1);

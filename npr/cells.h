@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Noise cells: the patches of one colour that the convolution draws out into strokes.
 //
-// A cell is what lies nearer to its site than to any other, on the surface. Sites are seats (seats.h) about 0.8 cell
-// widths apart; where too few photons fell, points of a lattice in space are seats too. Everything random about a cell is
-// hashed from its place on the object, so a stroke stays there when the camera moves; and when the camera comes nearer,
-// cells that find room grow out of nothing: the partition is a power diagram [Aurenhammer 1987].
+// A cell is what lies nearer to its site than to any other, on the surface. Sites are seats (seats.h) about
+// 0.8 cell widths apart; where too few photons fell, points of a lattice in space are seats too. Everything
+// random about a cell is hashed from its place on the object, so a stroke stays there when the camera moves;
+// and when the camera comes nearer, cells that find room grow out of nothing: the partition is a power
+// diagram [Aurenhammer 1987].
 #pragma once
 
 #include "core/gbuffer.h"
@@ -32,7 +33,7 @@ struct CellPlan {
     const Region& region;
     const Image<std::uint8_t>& mask; // the region's window
     const BrushScale& scale;
-    double cell = 1;                 // width in pixels of the picture, > 0
+    double cell = 1; // width in pixels of the picture, > 0
     std::uint64_t seed = 0;
     int coat = 0; // each coat of paint has other cells
 };
@@ -50,8 +51,9 @@ struct SiteGrid {
     float largest_radius2 = 0;
 };
 SiteGrid build_site_grid(std::vector<CellSite> sites, PixelRect box, double bucket);
-// The nearest in space to a place seen at `at`, distances taken as said above. `pixel`: what a pixel spans there, facing
-// the viewer; sites that are seen too far off to be the nearest are not looked at. Undefined when there are no sites.
+// The nearest in space to a place seen at `at`, distances taken as said above. `pixel`: what a pixel spans
+// there, facing the viewer; sites that are seen too far off to be the nearest are not looked at. Undefined
+// when there are no sites.
 std::uint32_t nearest_site(const SiteGrid& grid, Vec2f at, Vec3f place, float pixel);
 
 // Three independent normal deviates of a cell, cut at 2.2 standard deviations and rescaled to unit variance:

@@ -206,10 +206,9 @@ void paint_coat(RegionWork& work, const PaintLayer& coat, int coat_number, std::
     Image<Color> base = work.toned;
     masked_blur(base, work.mask, scaled(coat.blur, height));
     const double cell = scaled(coat.cell, height);
-    const std::vector<CellRecord> records =
-        cell <= 1 || (work.style.paper_mode && coat.cell <= 1)
-            ? make_pixel_cells(work, coat, base, cell, coat_number)
-            : make_site_cells(work, coat, base, cell, coat_number);
+    const std::vector<CellRecord> records = cell <= 1 || (work.style.paper_mode && coat.cell <= 1)
+                                                ? make_pixel_cells(work, coat, base, cell, coat_number)
+                                                : make_site_cells(work, coat, base, cell, coat_number);
     const Walk walk =
         make_walk(scaled(coat.length, height) * work.scale, canvas_step(work), work.style.box_weights);
     const CoatSample sample = sample_coat(work, walk, records);
@@ -240,8 +239,7 @@ Image<float> make_bristles(RegionWork& work) {
     PaintLayer hairs;
     hairs.edge = 0;
     const double cell = scaled(bristle_width, work.picture_height);
-    const std::vector<CellRecord> records =
-        make_site_cells(work, hairs, work.toned, cell, bristle_coat);
+    const std::vector<CellRecord> records = make_site_cells(work, hairs, work.toned, cell, bristle_coat);
     const Walk walk =
         make_walk(scaled(bristle_length, work.picture_height) * work.scale, canvas_step(work), false);
     const float gain = sample_coat(work, walk, records).gain;

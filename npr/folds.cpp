@@ -16,7 +16,8 @@ constexpr float sharpest_turn = 0.5f; // cosine between the normals
 bool is_fold(const Seen& a, const Seen& b, float pixel) {
     const Vec3f way = b.position - a.position;
     // A surface that bends away slowly leaves one of the two planes by little.
-    if (std::min(std::abs(glm::dot(way, a.normal)), std::abs(glm::dot(way, b.normal))) > largest_step * pixel) return true;
+    if (std::min(std::abs(glm::dot(way, a.normal)), std::abs(glm::dot(way, b.normal))) > largest_step * pixel)
+        return true;
     return glm::dot(a.normal, b.normal) < sharpest_turn;
 }
 
@@ -50,7 +51,8 @@ Folds find_folds(const GBuffer& gbuffer) {
                     for (int i = -1; i <= 1; ++i) {
                         if ((i == 0 && j == 0) || !gbuffer.seen.contains(x + i, y + j)) continue;
                         const Seen& other = gbuffer.seen.at(x + i, y + j);
-                        if (!is_painted(other) || other.object != seen.object || other.via != seen.via) continue;
+                        if (!is_painted(other) || other.object != seen.object || other.via != seen.via)
+                            continue;
                         // The larger of the two pixels, so that both sides say the same.
                         const float wider = std::max(pixel, footprint_of(other).least);
                         if (is_fold(seen, other, wider)) walls |= wall_bit(i, j);

@@ -19,7 +19,8 @@ const Seen& seen_at(const RegionWork& work, int canvas_x, int canvas_y) {
                                 work.region.box.y0 + canvas_y / work.scale);
 }
 
-constexpr float least_stretch = 0.5f, most_stretch = 4; // strokes at a silhouette would else be shorter than wide
+constexpr float least_stretch = 0.5f,
+                most_stretch = 4; // strokes at a silhouette would else be shorter than wide
 
 // How many pixels of the brush a step of one pixel along the direction is on the surface.
 float stretch_along(const BrushScale& brush, const Seen& seen, Vec2f direction) {
@@ -41,7 +42,8 @@ Canvas make_canvas(const RegionWork& work, double step) {
             for (int x = 0; x < work.mask.width * work.scale; ++x)
                 if (work.mask.at(x / work.scale, y / work.scale) != 0) {
                     CanvasPoint& point = canvas.at(x + canvas.rim, y + canvas.rim);
-                    point.direction = direction_at(work.axes, work.mask, Vec2f(Vec2(x + 0.5, y + 0.5)) * inverse);
+                    point.direction =
+                        direction_at(work.axes, work.mask, Vec2f(Vec2(x + 0.5, y + 0.5)) * inverse);
                     if (!work.style.paper_mode)
                         point.stretch = stretch_along(work.brush, seen_at(work, x, y), point.direction);
                 }
@@ -107,12 +109,20 @@ Image<Color> finish_region(const RegionWork& work, const std::vector<Painted>& p
 }
 
 Image<Color> paint_region(const InformativeMap& informative, const Seats& seats, const World& world,
-                          const GBuffer& gbuffer, const Folds& folds, const Regions& regions, std::uint32_t label,
-                          std::uint64_t seed) {
+                          const GBuffer& gbuffer, const Folds& folds, const Regions& regions,
+                          std::uint32_t label, std::uint64_t seed) {
     const Region& region = regions.regions[label - 1];
     const int height = gbuffer.view.height;
-    RegionWork work{region, world.objects[region.object].paint, gbuffer, seats, region_mask(regions, label),
-                    {}, {}, {}, {}, {}};
+    RegionWork work{region,
+                    world.objects[region.object].paint,
+                    gbuffer,
+                    seats,
+                    region_mask(regions, label),
+                    {},
+                    {},
+                    {},
+                    {},
+                    {}};
     work.brush = find_brush_scale(gbuffer, seats, region, work.mask);
     work.scale = canvas_scale(work.style, height);
     work.picture_height = height;
@@ -126,8 +136,7 @@ Image<Color> paint_region(const InformativeMap& informative, const Seats& seats,
     work.canvas = make_canvas(work, canvas_step(work));
     if (folds.any && !work.style.paper_mode) add_walls(folds, region, work.canvas);
     std::vector<Painted> painted(work.mask.pixels.size() * static_cast<std::size_t>(work.scale * work.scale));
-    for (std::size_t i = 0; i < coats.size(); ++i)
-        paint_coat(work, coats[i], static_cast<int>(i), painted);
+    for (std::size_t i = 0; i < coats.size(); ++i) paint_coat(work, coats[i], static_cast<int>(i), painted);
     finish_surface(work, painted);
     return finish_region(work, painted);
 }

@@ -46,7 +46,8 @@ std::vector<CellRecord> make_pixel_cells(RegionWork& work, const PaintLayer& coa
 
 std::vector<CellRecord> make_site_cells(RegionWork& work, const PaintLayer& coat, const Image<Color>& base,
                                         double cell, int coat_number) {
-    const CellPlan plan{work.gbuffer, work.seats, work.region, work.mask, work.brush, cell, work.seed, coat_number};
+    const CellPlan plan{work.gbuffer, work.seats, work.region, work.mask,
+                        work.brush,   cell,       work.seed,   coat_number};
     const SiteGrid grid = build_site_grid(make_cell_sites(plan), work.region.box, cell);
     std::vector<CellRecord> records;
     records.reserve(grid.sites.size());
@@ -59,7 +60,8 @@ std::vector<CellRecord> make_site_cells(RegionWork& work, const PaintLayer& coat
     for_each_canvas_row(work, [&](int x, int y, std::int64_t) {
         const int px = work.region.box.x0 + x / work.scale, py = work.region.box.y0 + y / work.scale;
         const Seen& seen = work.gbuffer.seen.at(px, py);
-        const Vec2f at = Vec2f(work.region.box.x0, work.region.box.y0) + Vec2f(Vec2(x + 0.5, y + 0.5)) * inverse;
+        const Vec2f at =
+            Vec2f(work.region.box.x0, work.region.box.y0) + Vec2f(Vec2(x + 0.5, y + 0.5)) * inverse;
         const Vec2f off = at - Vec2f(Vec2(px + 0.5, py + 0.5));
         work.canvas.at(x + work.canvas.rim, y + work.canvas.rim).cell = nearest_site(
             grid, at, seen.position + off.x * seen.dpdx + off.y * seen.dpdy, footprint_of(seen).least);

@@ -5,8 +5,8 @@
 
 #include "core/parallel.h"
 #include "core/settings.h"
-#include "npr/maps.h"
 #include "npr/brush_scale.h"
+#include "npr/maps.h"
 #include "npr/regions.h"
 #include "npr/seats.h"
 #include "npr/streamline.h"

@@ -29,8 +29,8 @@ Seats find_seats(const World& world, const GBuffer& gbuffer, const PhotonMap& ma
     for (const auto& chunk : see_photons(world, gbuffer, map)) {
         for (const SeenPhoton& seen : chunk) {
             const Seen& pixel = gbuffer.seen.at(seen.x, seen.y);
-            seats.seen.push_back({seen.at, map.photons[seen.photon].position, numbers[seen.photon], pixel.object,
-                                  pixel.via});
+            seats.seen.push_back(
+                {seen.at, map.photons[seen.photon].position, numbers[seen.photon], pixel.object, pixel.via});
         }
     }
     return seats;
@@ -46,9 +46,9 @@ float extent_of(std::span<const Vec3f> points) {
 
 } // namespace
 
-// Rounds of dart throwing, each with darts closer than the round before. Who was refused lately need not ask again until
-// the distance is smaller than that to the dart in its way; who is taken learns its distance to all taken before it, so
-// that any value between two rounds' parts the points as cleanly as the rounds do.
+// Rounds of dart throwing, each with darts closer than the round before. Who was refused lately need not ask
+// again until the distance is smaller than that to the dart in its way; who is taken learns its distance to
+// all taken before it, so that any value between two rounds' parts the points as cleanly as the rounds do.
 std::vector<float> spread_points(std::span<const Vec3f> points, std::uint64_t key, float finest) {
     std::vector<float> spacing(points.size(), std::numeric_limits<float>::infinity());
     if (points.empty()) return spacing;
@@ -67,7 +67,8 @@ std::vector<float> spread_points(std::span<const Vec3f> points, std::uint64_t ke
         still.clear();
         for (const std::int32_t i : waiting) {
             float& own = spacing[static_cast<std::size_t>(i)];
-            if (own >= distance) own = std::min(own, near.nearest(points[static_cast<std::size_t>(i)], wider));
+            if (own >= distance)
+                own = std::min(own, near.nearest(points[static_cast<std::size_t>(i)], wider));
             if (own < distance) {
                 still.push_back(i);
                 continue;

@@ -32,7 +32,7 @@ bool is_paint_photon(const World& world, const Photon& photon) {
 
 // The pixel that a photon is seen at directly, if the picture shows it there.
 std::optional<SeenPhoton> project_photon(const GBuffer& gbuffer, const Photon& photon, Vec3f normal,
-                                        std::uint32_t index) {
+                                         std::uint32_t index) {
     const Vec3 position(photon.position);
     const Camera& camera = gbuffer.view.camera;
     const Vec3 toward_viewer =
@@ -78,8 +78,8 @@ std::map<std::uint32_t, std::vector<ChainView>> collect_chain_views(const GBuffe
 }
 
 std::optional<SeenPhoton> project_through_chain(const GBuffer& gbuffer, const ChainView& view,
-                                               const Photon& photon, Vec3f normal, std::uint32_t index,
-                                               std::vector<Neighbour>& found) {
+                                                const Photon& photon, Vec3f normal, std::uint32_t index,
+                                                std::vector<Neighbour>& found) {
     find_nearest(view.tree, photon.position, 1, std::numeric_limits<float>::infinity(), found);
     if (found.empty()) return {};
     const std::uint32_t pixel = view.pixels[found.front().index];
@@ -98,7 +98,7 @@ std::optional<SeenPhoton> project_through_chain(const GBuffer& gbuffer, const Ch
 } // namespace
 
 std::vector<std::vector<SeenPhoton>> see_photons(const World& world, const GBuffer& gbuffer,
-                                                       const PhotonMap& map) {
+                                                 const PhotonMap& map) {
     const auto chains = collect_chain_views(gbuffer);
     const auto count = static_cast<std::int64_t>(map.photons.size());
     constexpr std::int64_t grain = 4096;

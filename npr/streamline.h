@@ -13,8 +13,9 @@ namespace pnr {
 
 inline constexpr std::uint32_t no_cell = 0xffffffffu;
 
-// What a path reads at a place of its canvas: the unit direction of the stroke (sign arbitrary), the noise cell
-// (no_cell outside the region), and how many pixels of the brush a pixel's step along the stroke is on the surface.
+// What a path reads at a place of its canvas: the unit direction of the stroke (sign arbitrary), the noise
+// cell (no_cell outside the region), and how many pixels of the brush a pixel's step along the stroke is on
+// the surface.
 struct CanvasPoint {
     Vec2f direction{0};
     std::uint32_t cell = no_cell;
@@ -60,10 +61,10 @@ inline Vec2f follow(const Canvas& canvas, Vec2f at, Vec2f heading) {
 
 inline constexpr int longest_way = 2; // steps of a path by those it has where a pixel is one of the brush
 
-// Walks from `start` along `heading` by the midpoint rule until the way on the surface is `count` steps of the brush
-// long, and calls sample(before, stretch, cell) with the cell at a place inside each step, `within(k)` in [0, 1) of the
-// k-th's way along: one stratified sample a step. `before`: the way up to that place, in steps. Stops where the path
-// leaves the region or comes to a fold.
+// Walks from `start` along `heading` by the midpoint rule until the way on the surface is `count` steps of
+// the brush long, and calls sample(before, stretch, cell) with the cell at a place inside each step,
+// `within(k)` in [0, 1) of the k-th's way along: one stratified sample a step. `before`: the way up to that
+// place, in steps. Stops where the path leaves the region or comes to a fold.
 template <class Within, class Sample>
 inline void walk_path(const Canvas& canvas, Vec2f start, Vec2f heading, int count, float step,
                       Within&& within, Sample&& sample) {

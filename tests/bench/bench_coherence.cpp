@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far strokes swim when the camera moves: an animation whose scene moves the camera by `clock`, painted three ways,
-// each frame warped to the next by the known motion.
+// How far strokes swim when the camera moves: an animation whose scene moves the camera by `clock`, painted
+// three ways, each frame warped to the next by the known motion.
 //
 // bench_coherence SCENE [--frames N] [--height H] [--turn SHARE] [-L DIR]... [--pictures DIR] [--only-ours]
 //   --only-ours: without the two it is compared with
 //   --turn: the clock runs from 0 to SHARE over the frames; 1 is the scene's whole orbit
-// Prints a row a way of painting: rms (display values, 0..1, over R, G, B), contrast (standard deviation of the strokes
-// about a blurred copy), rms over contrast, and the pixels compared. Compared are pixels of one object that both frames
-// show and that lie three pixels or more inside the silhouette in both.
-// The ways [LW10 Fig. 12]: ours; Rendered-First-ILIC-Last (the photon-mapped picture painted in two dimensions, on the
-// object's area); ILIC-First-Texture-Mapping-Last (a picture filtered by ILIC of length 60, wrapped round the object and
-// lit). The noise of the other two is scaled until their contrast in the first frame is ours.
+// Prints a row a way of painting: rms (display values, 0..1, over R, G, B), contrast (standard deviation of
+// the strokes about a blurred copy), rms over contrast, and the pixels compared. Compared are pixels of one
+// object that both frames show and that lie three pixels or more inside the silhouette in both. The ways
+// [LW10 Fig. 12]: ours; Rendered-First-ILIC-Last (the photon-mapped picture painted in two dimensions, on the
+// object's area); ILIC-First-Texture-Mapping-Last (a picture filtered by ILIC of length 60, wrapped round the
+// object and lit). The noise of the other two is scaled until their contrast in the first frame is ours.
 
 #include "core/gbuffer.h"
 #include "core/image_io.h"
@@ -102,9 +102,11 @@ Shown see(const Shot& shot, const Words& words, double clock) {
     frame.gbuffer = make_gbuffer(shot.world, view, {0, 0, view.width, view.height}, shot.settings.render);
     frame.mask = Image<std::uint8_t>(view.width, view.height, 0);
     for (std::size_t i = 0; i < frame.mask.pixels.size(); ++i)
-        frame.mask.pixels[i] = is_painted(frame.gbuffer.seen.pixels[i]) && frame.gbuffer.seen.pixels[i].via == 0;
+        frame.mask.pixels[i] =
+            is_painted(frame.gbuffer.seen.pixels[i]) && frame.gbuffer.seen.pixels[i].via == 0;
     frame.inner = eroded(frame.mask, 3);
-    PhotonMap light = shot.photons; // without painted photons every pixel takes the light of its own seen point
+    PhotonMap light =
+        shot.photons; // without painted photons every pixel takes the light of its own seen point
     light.normals.clear();
     const SparseMap own = make_sparse_map(shot.world, frame.gbuffer, light, shot.settings);
     frame.photoreal = Image<Color>(view.width, view.height, Color(0));
@@ -135,7 +137,9 @@ Image<Color> paint_ours(const Shot& shot, const Shown& frame) {
     SparseMap sparse = make_sparse_map(shot.world, frame.gbuffer, shot.photons, shot.settings);
     orient_strokes(sparse, shot.world, frame.gbuffer, shot.photons, shot.oriented);
     const InformativeMap informative = make_informative_map(sparse, shot.world, frame.gbuffer, seed);
-    return convolve(informative, find_seats(shot.world, frame.gbuffer, shot.photons), shot.world, frame.gbuffer, seed).color;
+    return convolve(informative, find_seats(shot.world, frame.gbuffer, shot.photons), shot.world,
+                    frame.gbuffer, seed)
+        .color;
 }
 
 Image<Color> paint_last(const Shot& shot, const Shown& frame, double factor) {
@@ -149,8 +153,8 @@ Image<Color> make_wrapping(const Shot& shot, double factor) {
     for (int y = 0; y < picture.height; ++y)
         for (int x = 0; x < picture.width; ++x) {
             const double u = 2 * pi * x / picture.width, v = 2 * pi * y / picture.height;
-            picture.at(x, y) = Color(static_cast<float>(
-                0.5 + 0.02 * std::sin(3 * u + 2 * std::sin(2 * v)) + 0.02 * std::sin(5 * v + 2 * std::cos(2 * u))));
+            picture.at(x, y) = Color(static_cast<float>(0.5 + 0.02 * std::sin(3 * u + 2 * std::sin(2 * v)) +
+                                                        0.02 * std::sin(5 * v + 2 * std::cos(2 * u))));
         }
     PaintStyle style = louder(painted_style(shot.world), factor);
     style.length = 60;
@@ -218,7 +222,8 @@ std::optional<Vec2> moved(const Shown& from, const Shown& to, int x, int y) {
     const Seen& seen = from.gbuffer.seen.at(x, y);
     const auto place = project(to.gbuffer.view, Vec3(seen.position));
     if (!place) return {};
-    const int px = static_cast<int>(std::floor(place->pixel.x)), py = static_cast<int>(std::floor(place->pixel.y));
+    const int px = static_cast<int>(std::floor(place->pixel.x)),
+              py = static_cast<int>(std::floor(place->pixel.y));
     if (!to.inner.contains(px, py) || to.inner.at(px, py) == 0) return {};
     const Seen& there = to.gbuffer.seen.at(px, py);
     if (there.object != seen.object) return {};
@@ -229,7 +234,8 @@ std::optional<Vec2> moved(const Shown& from, const Shown& to, int x, int y) {
     return place->pixel;
 }
 
-void compare(const Shown& from, const Shown& to, const Image<Color>& before, const Image<Color>& after, Difference& d) {
+void compare(const Shown& from, const Shown& to, const Image<Color>& before, const Image<Color>& after,
+             Difference& d) {
     const Image<Color> a = shown(before), b = shown(after);
     for (int y = 0; y < a.height; ++y)
         for (int x = 0; x < a.width; ++x) {
@@ -266,13 +272,20 @@ Words read_words(int count, char** values) {
     for (int i = 1; i < count; ++i) {
         const std::string word = values[i];
         const auto value = [&] { return i + 1 < count ? std::string(values[++i]) : std::string(); };
-        if (word == "--frames") words.frames = std::atoi(value().c_str());
-        else if (word == "--height") words.height = std::atoi(value().c_str());
-        else if (word == "--turn") words.turn = std::atof(value().c_str());
-        else if (word == "--pictures") words.pictures = value();
-        else if (word == "--only-ours") words.only_ours = true;
-        else if (word == "-L") words.library.emplace_back(value());
-        else words.scene = word;
+        if (word == "--frames")
+            words.frames = std::atoi(value().c_str());
+        else if (word == "--height")
+            words.height = std::atoi(value().c_str());
+        else if (word == "--turn")
+            words.turn = std::atof(value().c_str());
+        else if (word == "--pictures")
+            words.pictures = value();
+        else if (word == "--only-ours")
+            words.only_ours = true;
+        else if (word == "-L")
+            words.library.emplace_back(value());
+        else
+            words.scene = word;
     }
     return words;
 }
@@ -282,7 +295,9 @@ Words read_words(int count, char** values) {
 int main(int count, char** values) {
     const Words words = read_words(count, values);
     if (words.scene.empty() || words.frames < 2 || words.height < 16) {
-        fmt::print(stderr, "bench_coherence SCENE [--frames N] [--height H] [--turn SHARE] [-L DIR] [--pictures DIR]\n");
+        fmt::print(
+            stderr,
+            "bench_coherence SCENE [--frames N] [--height H] [--turn SHARE] [-L DIR] [--pictures DIR]\n");
         return 2;
     }
     const Shot shot = prepare(words);
@@ -292,8 +307,9 @@ int main(int count, char** values) {
     if (!words.only_ours) {
         const double wanted = contrast(paint_ours(shot, first), first);
         last_factor = match(wanted, first, [&](double f) { return paint_last(shot, first, f); });
-        wrapping = make_wrapping(
-            shot, match(wanted, first, [&](double f) { return paint_first(shot, first, make_wrapping(shot, f)); }));
+        wrapping = make_wrapping(shot, match(wanted, first, [&](double f) {
+                                     return paint_first(shot, first, make_wrapping(shot, f));
+                                 }));
     }
 
     struct Way {
@@ -303,11 +319,18 @@ int main(int count, char** values) {
         double contrast = 0;
         Image<Color> before;
     };
-    std::vector<Way> ways{
-        {"ours", [&](const Shown& f) { return paint_ours(shot, f); }, {}, 0, {}},
-        {"rendered_first_ilic_last", [&](const Shown& f) { return paint_last(shot, f, last_factor); }, {}, 0, {}},
-        {"ilic_first_texture_last", [&](const Shown& f) { return paint_first(shot, f, wrapping); }, {}, 0, {}},
-        {"no_paint", [&](const Shown& f) { return f.photoreal; }, {}, 0, {}}};
+    std::vector<Way> ways{{"ours", [&](const Shown& f) { return paint_ours(shot, f); }, {}, 0, {}},
+                          {"rendered_first_ilic_last",
+                           [&](const Shown& f) { return paint_last(shot, f, last_factor); },
+                           {},
+                           0,
+                           {}},
+                          {"ilic_first_texture_last",
+                           [&](const Shown& f) { return paint_first(shot, f, wrapping); },
+                           {},
+                           0,
+                           {}},
+                          {"no_paint", [&](const Shown& f) { return f.photoreal; }, {}, 0, {}}};
     if (words.only_ours) ways.resize(1);
     Shown before;
     for (int i = 0; i < words.frames; ++i) {
@@ -324,8 +347,8 @@ int main(int count, char** values) {
     }
     fmt::print("way,rms,contrast,rms_over_contrast,pixels\n");
     for (const Way& way : ways)
-        fmt::print("{},{:.4f},{:.4f},{:.3f},{:.0f}\n", way.name, std::sqrt(way.difference.sum / way.difference.count),
-                   way.contrast, std::sqrt(way.difference.sum / way.difference.count) / way.contrast,
-                   way.difference.count);
+        fmt::print("{},{:.4f},{:.4f},{:.3f},{:.0f}\n", way.name,
+                   std::sqrt(way.difference.sum / way.difference.count), way.contrast,
+                   std::sqrt(way.difference.sum / way.difference.count) / way.contrast, way.difference.count);
     return 0;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "npr/folds.h"
 #include "core/scene.h"
+#include "npr/folds.h"
 #include "synthetic.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,8 @@ GBuffer look_at(Shape shape, Vec3 from) {
 }
 
 int walled_pixels(const Folds& folds) {
-    return static_cast<int>(std::count_if(folds.walls.pixels.begin(), folds.walls.pixels.end(), [](std::uint8_t w) { return w != 0; }));
+    return static_cast<int>(std::count_if(folds.walls.pixels.begin(), folds.walls.pixels.end(),
+                                          [](std::uint8_t w) { return w != 0; }));
 }
 
 TEST(Folds, ASphereHasNone) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fields that are known on sphere, torus, cylinder and saddle: what seeds taken from them give back elsewhere.
+// Fields that are known on sphere, torus, cylinder and saddle: what seeds taken from them give back
+// elsewhere.
 #include "core/closest_point.h"
 #include "core/rng.h"
 #include "core/scene.h"
@@ -37,12 +38,15 @@ Mesh saddle() {
     return mesh;
 }
 
-// Circles of latitude on the sphere, winding lines on the torus, helices on the cylinder, straight lines on the saddle.
+// Circles of latitude on the sphere, winding lines on the torus, helices on the cylinder, straight lines on
+// the saddle.
 std::vector<KnownField> known_fields() {
-    return {{"sphere", Sphere{{0, 0, 0}, 1}, [](Vec3 p) { return std::abs(p.y) < 0.9 ? glm::cross(Vec3(0, 1, 0), p) : Vec3(0); }},
+    return {{"sphere", Sphere{{0, 0, 0}, 1},
+             [](Vec3 p) { return std::abs(p.y) < 0.9 ? glm::cross(Vec3(0, 1, 0), p) : Vec3(0); }},
             {"torus", Torus{1.5, 0.5},
              [](Vec3 p) {
-                 const Vec3 round = glm::normalize(Vec3(-p.z, 0, p.x)), out = glm::normalize(Vec3(p.x, 0, p.z));
+                 const Vec3 round = glm::normalize(Vec3(-p.z, 0, p.x)),
+                            out = glm::normalize(Vec3(p.x, 0, p.z));
                  const double across = (glm::length(Vec2(p.x, p.z)) - 1.5) / 0.5, up = p.y / 0.5;
                  return round + up * out - across * Vec3(0, 1, 0);
              }},
@@ -104,10 +108,12 @@ TEST(KnownFields, TheErrorFallsWithTheNumberOfSeedsAndTheSeedsAreMet) {
             for (const int count : {8, 32, 128}) {
                 const FieldError error = measure(known, kernel, count);
                 EXPECT_LT(error.residual, 1e-6) << known.name << ' ' << count;
-                EXPECT_LT(error.mean, 0.8 * before) << known.name << ' ' << static_cast<int>(kernel) << ' ' << count;
+                EXPECT_LT(error.mean, 0.8 * before)
+                    << known.name << ' ' << static_cast<int>(kernel) << ' ' << count;
                 before = error.mean;
             }
-            EXPECT_LT(before, 0.05) << known.name << ' ' << static_cast<int>(kernel); // less than three degrees
+            EXPECT_LT(before, 0.05) << known.name << ' '
+                                    << static_cast<int>(kernel); // less than three degrees
         }
     }
 }
@@ -120,8 +126,8 @@ TEST(KnownFields, AThousandSeedsOfEveryKindGiveFiniteTangents) {
                 Rng rng = make_rng(5, Pass::test, i);
                 const double x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
                 Vec3 at = Vec3(x, y, z) * 2.0 - 1.0, way = Vec3(y, z, x) - 0.5;
-                if (kind == 1) at.y = 0;                       // coplanar
-                if (kind == 2) way = i % 2 ? way : -way;       // opposite ways
+                if (kind == 1) at.y = 0;                                              // coplanar
+                if (kind == 2) way = i % 2 ? way : -way;                              // opposite ways
                 if (kind == 3) at = Vec3(0.1, 0.2, 0.3) * static_cast<double>(i % 2); // two places, many axes
                 style.seeds.push_back({at, way, 1, {}});
             }

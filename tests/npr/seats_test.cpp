@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "npr/seats.h"
 #include "npr/cells.h"
+#include "npr/seats.h"
 #include "synthetic.h"
 
 #include <gtest/gtest.h>
