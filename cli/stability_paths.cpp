@@ -44,7 +44,7 @@ std::vector<Vec2> our_path(const Canvas& canvas, Vec2 start, Vec2 heading) {
     walk_path(
         canvas, Vec2f(start + Vec2(half)), Vec2f(heading), steps, static_cast<float>(step),
         [](int) { return end_of_step; },
-        [&](int, std::uint32_t cell) {
+        [&](float, float, std::uint32_t cell) {
             path.emplace_back(cell % side + 0.5 - half, cell / side + 0.5 - half);
         });
     return path;
