@@ -64,6 +64,8 @@ int run_program(const std::vector<std::string>& arguments) {
         if (options.command == "plan") return run_plan(options);
         if (options.command == "pick") return run_pick(options);
         if (options.command == "ilic") return run_ilic(options);
+        if (options.command == "stability") return run_stability(options);
+        if (options.command == "converge") return run_converge(options);
         return run_render(options);
     } catch (const UsageError& error) {
         print_error(error.what());

@@ -18,5 +18,7 @@ int run_check(const Options& options);
 int run_plan(const Options& options);
 int run_pick(const Options& options);
 int run_ilic(const Options& options);
+int run_stability(const Options& options);
+int run_converge(const Options& options);
 
 } // namespace pnr

@@ -78,7 +78,8 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 // What CLI11 fills and still needs a look.
 struct Words {
-    std::string scene, size, crop, frames, subset, aov, at, to, help;
+    std::string scene, size, crop, frames, subset, aov, at, to, help, groups, sweep;
+    std::string budgets = "1,2,4,8,16,32";
     std::vector<std::string> declares, outputs, library, limits;
     bool no_prune = false;
 };
@@ -236,7 +237,7 @@ void add_others(CLI::App& parent, Options& options, Words& words, std::optional<
                 "Pixels are those of the picture that `pnr render` makes with the same -W and -H.");
 
     CLI::App& help = *parent.add_subcommand("help", "Explain a command");
-    help.add_option("COMMAND", words.help, "render, check, plan, pick or ilic");
+    help.add_option("COMMAND", words.help, "render, check, plan, pick, ilic, stability or converge");
 }
 
 void add_ilic(CLI::App& parent, Options& options, Words& words, std::optional<ProgressMode>& progress) {
@@ -266,6 +267,70 @@ void add_ilic(CLI::App& parent, Options& options, Words& words, std::optional<Pr
         "Progress on standard error");
     app.footer("Example:\n  pnr ilic photo.jpg -o painting.png --style oil --length 20\n"
                "Strokes follow the picture's edges [Wang and Lee 2003]; paint in space is `pnr render`'s.");
+}
+
+void add_stability(CLI::App& parent, Options& options, Words& words) {
+    CLI::App& app = *parent.add_subcommand("stability", "Measure stiff and extreme cases against what theory allows");
+    app.add_option("--group", words.groups, "These groups alone: paths, fields, roots, rays, photons, sums, pictures")
+        ->type_name("NAME,...");
+    app.add_option("--html", options.html, "Write the table as a page too")->type_name("FILE");
+    app.add_option("--threads", options.threads, "Threads to use (default: all)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+    app.footer("Each line is a case that could break: what is measured, the bound that theory or a computation with 50\n"
+               "digits gives, and what came out. Exit code 5 if one does not hold. All groups take about a minute.\n\n"
+               "Example:\n  pnr stability --group rays,roots --html stability.html");
+}
+
+void add_converge(CLI::App& parent, Options& options, Words& words, std::optional<ProgressMode>& progress) {
+    CLI::App& app = *parent.add_subcommand("converge", "Measure a scene's error against run time");
+    app.add_option("SCENE", words.scene, "A scene file; none: the built-in scene");
+    add_size_options(app, options, words);
+    add_scene_options(app, options, words);
+    app.add_option("--budgets", words.budgets, "Seconds after which to look (default: 1,2,4,8,16,32)")->type_name("S,...");
+    app.add_option("--reference", options.reference, "Compare with this picture of linear light (.exr)")->type_name("IMAGE");
+    app.add_option("--reference-time", options.reference_s,
+                   "Trace two references by paths, this long together; 0: the error is estimated alone (default: 0)")
+        ->type_name("S")
+        ->check(CLI::Range(0.0, 1e6));
+    app.add_option("--sweep", words.sweep,
+                   "Compare values of a setting: photons, gather, radius, shadow, sharp or seed")
+        ->type_name("NAME=A,B,...");
+    app.add_option("--error", options.error, "Say which budget and setting meets this relative error first")
+        ->type_name("FRACTION");
+    app.add_option("--csv", options.csv, "Write the table, - prints it")->type_name("FILE");
+    app.add_option("--html", options.html, "Write a page with plots and pictures")->type_name("FILE");
+    app.add_option("--seed", options.seed, "Random seed")->type_name("N");
+    app.add_option("--threads", options.threads, "Threads to use (default: all)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+    add_choice<ProgressMode>(
+        app, "--progress", progress,
+        {{"auto", ProgressMode::automatic}, {"off", ProgressMode::off}, {"json", ProgressMode::json}},
+        "Progress on standard error");
+    app.footer("One progressive run is looked at whenever a budget is used up. Error is measured over the photoreal pixels,\n"
+               "against two independent references whose own noise drops out: root mean squares, absolute and relative to\n"
+               "light + a tenth of the mean; the ratio of means; the 99th percentile; the mean distance in Oklab as\n"
+               "displayed, times 100; and beside them what the run itself estimates as its noise and bias.\n\n"
+               "Examples:\n  pnr converge box.pnr -W 256 --reference-time 60 --html box.html\n"
+               "  pnr converge box.pnr --budgets 2,4,8 --sweep photons=50000,200000,800000 --error 0.03");
+}
+
+void finish_converge(Options& options, const Words& words) {
+    for (const std::string& word : split(words.budgets, ',')) {
+        const auto seconds = split_numbers<1>(word, ',');
+        if (!seconds || !((*seconds)[0] > 0) || (!options.run_budgets.empty() && (*seconds)[0] <= options.run_budgets.back()))
+            throw UsageError(fmt::format("--budgets {}: rising numbers of seconds are expected, such as 1,2,4", words.budgets));
+        options.run_budgets.push_back((*seconds)[0]);
+    }
+    if (words.sweep.empty()) return;
+    const std::size_t equals = words.sweep.find('=');
+    options.sweep = words.sweep.substr(0, equals);
+    if (equals != std::string::npos)
+        for (const std::string& word : split(words.sweep.substr(equals + 1), ','))
+            if (const auto value = split_numbers<1>(word, ',')) options.sweep_values.push_back((*value)[0]);
+    if (options.sweep_values.empty())
+        throw UsageError(fmt::format("--sweep {}: a setting and its values are said as NAME=A,B,...", words.sweep));
 }
 
 void finish_options(Options& options, const Words& words) {
@@ -305,6 +370,8 @@ void finish_options(Options& options, const Words& words) {
     if (options.error && !(*options.error > 0 && *options.error < 1e3))
         throw UsageError("--error: a fraction above 0 is expected, such as 0.03");
     options.aovs = split(words.aov, ',');
+    options.groups = split(words.groups, ',');
+    finish_converge(options, words);
     options.prune = !words.no_prune;
     if (!words.at.empty()) options.at = to_pixel(words.at, "--at");
     if (!words.to.empty()) options.to = to_pixel(words.to, "--to");
@@ -344,9 +411,11 @@ struct Parsing {
         add_render(app, options, words, progress);
         add_others(app, options, words, format);
         add_ilic(app, options, words, progress);
+        add_stability(app, options, words);
+        add_converge(app, options, words, progress);
         app.footer("Exit codes: 0 done, 1 render failed, 2 usage, 3 error in the scene, 4 file not read or "
                    "written,\n"
-                   "5 done, but --error was missed, 130 or 143 stopped by a signal.");
+                   "5 done, but --error was missed or a stability case fails, 130 or 143 stopped by a signal.");
     }
     Parsing(const Parsing&) = delete; // the app points into it
     Parsing& operator=(const Parsing&) = delete;

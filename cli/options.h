@@ -38,7 +38,7 @@ struct IlicOptions {
 };
 
 struct Options {
-    std::string command;                        // render, check, plan, pick, ilic
+    std::string command;                        // render, check, plan, pick, ilic, stability, converge
     std::vector<std::string> scenes;            // empty: the embedded default scene; "-": standard input
     std::vector<std::filesystem::path> outputs; // "-": PNG to standard output
     std::optional<int> width, height;
@@ -71,6 +71,14 @@ struct Options {
     IlicOptions ilic;
     std::array<int, 2> at{}; // pick: pixels
     std::optional<std::array<int, 2>> to;
+    std::vector<std::string> groups; // stability: these alone; empty: all
+    std::filesystem::path html, csv; // the report as a page, as a table; empty: not asked for
+    // converge
+    std::vector<double> run_budgets; // s, rising
+    std::filesystem::path reference; // a picture; empty: path traced
+    double reference_s = 0;          // for so long; 0: no reference
+    std::string sweep;               // a setting and its values
+    std::vector<double> sweep_values;
 };
 
 // The command line cannot be understood (exit code 2).

@@ -89,7 +89,7 @@ PaintResult paint(const Rendering& r, Passes& passes) {
         return make_informative_map(p.sparse, r.world, r.gbuffer, seed, progress);
     });
     p.layer = passes.run("ilic", [&](const Progress& progress) {
-        return convolve(p.informative, p.sparse, r.world, r.gbuffer, seed, progress);
+        return convolve(p.informative, find_seats(r.world, r.gbuffer, r.photons), r.world, r.gbuffer, seed, progress);
     });
     return p;
 }

@@ -39,6 +39,8 @@ struct Wishes {
     // Called between two progressive passes when a signal asks for the picture so far.
     std::function<void(const struct Rendering&)> show;
     Budgets budgets; // pixels and photons
+    // Called after each progressive pass, whose means are in r.rendered; false ends the run.
+    std::function<bool(struct Rendering&)> after_pass;
 };
 
 // The photon map of the frame before, for the frames that show the same world.

@@ -50,12 +50,18 @@ void check_aovs(const std::vector<std::string>& asked) {
 
 bool exists(const fs::path& file) { return file != "-" && fs::exists(file); }
 
-std::vector<std::string> all_warnings(const LoadResult& loaded, const Rendering& r) {
-    std::vector<std::string> warnings = warning_texts(loaded.diagnostics, loaded.sources);
-    warnings.insert(warnings.end(), r.world.notes.begin(), r.world.notes.end());
+// What was done to meshes, and what the orientation fields could not do.
+std::vector<std::string> notes_of(const Rendering& r) {
+    std::vector<std::string> notes = r.world.notes;
     for (const FieldReport& report : r.paint.fields.reports)
         for (const std::string& note : report.notes)
-            warnings.push_back(fmt::format("object {}: {}", report.object, note));
+            notes.push_back(fmt::format("object {}: {}", report.object, note));
+    return notes;
+}
+
+std::vector<std::string> all_warnings(const LoadResult& loaded, const Rendering& r) {
+    std::vector<std::string> warnings = warning_texts(loaded.diagnostics, loaded.sources);
+    for (std::string& note : notes_of(r)) warnings.push_back(std::move(note));
     return warnings;
 }
 
@@ -135,9 +141,10 @@ int render_frame(const Options& options, const AnimationFrame& frame, KeptPhoton
         };
         const Wishes wishes{options.crop,         !files.maps.empty(),     wants_light_parts(options),
                             options.save_photons, options.load_photons,    refinement_of(options),
-                            write_pictures,       options.budgets};
+                            write_pictures,       options.budgets,        {}};
         Rendering r = render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, kept,
                                    loaded.world_hash, passes);
+        for (const std::string& note : notes_of(r)) print_note(note);
         report_faults(r.faults);
         write_results(loaded, r, options, files, passes);
         const int code = code_of(r, options);

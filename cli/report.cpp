@@ -36,6 +36,7 @@ bool color_on_stderr() {
 
 void print_error(const std::string& text) { print_line("error", "31", text); }
 void print_warning(const std::string& text) { print_line("warning", "35", text); }
+void print_note(const std::string& text) { print_line("note", "36", text); }
 
 void print_diagnostics(const std::vector<Diagnostic>& diagnostics, const Sources& sources) {
     const bool color = color_on_stderr();

@@ -26,6 +26,7 @@ bool color_on_stderr();
 
 void print_error(const std::string& text); // `pnr: error: text`
 void print_warning(const std::string& text);
+void print_note(const std::string& text);
 void print_diagnostics(const std::vector<Diagnostic>& diagnostics, const Sources& sources);
 
 // An error that was found after reading, in the form of those found while reading: with its line and a caret

@@ -208,10 +208,19 @@ void add_levels(HeightGrid& g) {
     } while (width > 1 || height > 1);
 }
 
+Image<float> read_heights_of(const HeightFieldData& data) {
+    if (data.file.empty()) return {};
+    try {
+        return read_heights(data.file, data.pot);
+    } catch (const FileError& problem) { // what the reader has to say against the file belongs where the scene names it
+        throw SceneError(data.said_at, problem.what());
+    }
+}
+
 // Pictures have their first row at the top, which is z = 1.
 std::shared_ptr<const HeightGrid> make_grid(const HeightFieldData& data) {
     auto grid = std::make_shared<HeightGrid>();
-    const Image<float> heights = data.file.empty() ? Image<float>() : read_heights(data.file, data.pot);
+    const Image<float> heights = read_heights_of(data);
     grid->width = data.file.empty() ? data.width : heights.width;
     grid->height = data.file.empty() ? data.height : heights.height;
     if (grid->width < 2 || grid->height < 2)

@@ -9,9 +9,19 @@ namespace pnr {
 
 namespace {
 
+// What the reader has to say against a file is an error where the scene names it.
+template <class F>
+auto read_at(const SourceRef& said_at, F read) {
+    try {
+        return read();
+    } catch (const FileError& problem) {
+        throw SceneError(said_at, problem.what());
+    }
+}
+
 // In the scene's working values.
 Image<glm::vec4> read_working(const ImagePattern& said, double assumed_gamma) {
-    Image<glm::vec4> picture = read_image(said.file);
+    Image<glm::vec4> picture = read_at(said.said_at, [&] { return read_image(said.file); });
     for (glm::vec4& pixel : picture.pixels)
         for (int c = 0; c < 3; ++c) {
             float linear = pixel[c];
@@ -34,7 +44,7 @@ void read_picture(ImagePattern& said, PatternAssets& assets) {
 void read_density(DensityFilePattern& said, PatternAssets& assets) {
     if (said.grid) return;
     auto& entry = assets.densities[said.file];
-    if (!entry) entry = std::make_shared<const DensityGrid>(read_density_grid(said.file));
+    if (!entry) entry = std::make_shared<const DensityGrid>(read_at(said.said_at, [&] { return read_density_grid(said.file); }));
     said.grid = entry;
 }
 

@@ -76,9 +76,9 @@ struct RenderSettings {
 // ---- painting
 // -------------------------------------------------------------------------------------------------
 
-// r, r^3, exp(-(r/c)^2). In space r is itself the biharmonic function [Carr 2001], so the word `linear` means
+// -r and r^3. In space r is itself the biharmonic function [Carr 2001], so the word `linear` means
 // biharmonic too.
-enum class RbfKernel { biharmonic, triharmonic, gaussian };
+enum class RbfKernel { biharmonic, triharmonic };
 enum class FieldSource { seeds, curvature_min, curvature_max, along, around, light, gradient };
 enum class Fill { nearest, random };
 
@@ -118,6 +118,7 @@ struct PaintStyle {
     double field_weight = 0;                // share of the field beside seeds in the blend; 0: one alone
     double radius = 5;                      // of the informative map's disc
     Fill fill = Fill::nearest;
+    bool folds = false; // the disc does not reach over a fold of its object
     double length = 26;             // of the whole ILIC path, both sides
     double cell = 4.5;              // width of a noise cell
     double noise_lightness = 0.035; // standard deviations of the result, Oklab L ...

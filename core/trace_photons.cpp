@@ -14,10 +14,12 @@ namespace pnr {
 namespace {
 
 constexpr std::int64_t photons_per_chunk = 2048;
-// From this many bounces on an even roulette ends paths that no surface would end (albedo 1 in a closed box);
-// survivors make up for it.
+// From this many bounces on a roulette ends paths that no surface would end (albedo 1 in a closed box); survivors make up
+// for it. Of n bounces it ends one in 2 / n: the share that lives on falls by the square of n and power grows by the square,
+// which any albedo below 1 outruns, so that the variance is finite. (An even roulette's is not where it kills faster than
+// the surfaces do.)
 constexpr int free_bounces = 64;
-constexpr double late_survival = 0.9;
+double late_survival(int bounces) { return 1 - 2.0 / bounces; }
 
 struct Chunk {
     std::vector<Photon> photons;
@@ -254,8 +256,8 @@ struct Tracer {
         if (flight.scattered && world.caustics_apart) return false;
         if (flight.aimed && !flight.focused) return false;
         if (++flight.bounces > free_bounces) {
-            if (numbers.rng.uniform() >= late_survival) return false;
-            flight.flux /= late_survival;
+            if (numbers.rng.uniform() >= late_survival(flight.bounces)) return false;
+            flight.flux /= late_survival(flight.bounces);
         }
         flight.ray = leave(hit, out.direction);
         return true;

@@ -2,6 +2,8 @@
 #include "npr/cells.h"
 
 #include "core/rng.h"
+#include "npr/point_buckets.h"
+#include "npr/seen_photons.h"
 
 namespace pnr {
 
@@ -17,107 +19,124 @@ std::uint64_t coat_key(std::uint64_t seed, int coat) {
                       static_cast<std::uint64_t>(coat));
 }
 
-CellSite make_site(Vec2f at, std::uint64_t hash) { return {at, hash, unit_float(hash_words(hash, 1))}; }
-
-// Occupancy of the plane by sites already placed: buckets so small that each holds few.
-class Occupied {
-public:
-    Occupied(PixelRect box, double bucket)
-        : bucket_(bucket), origin_(box.x0, box.y0), columns_(count(box.x1 - box.x0)),
-          rows_(count(box.y1 - box.y0)),
-          first_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), -1) {}
-
-    bool any_within(const std::vector<CellSite>& sites, Vec2 at, double distance) const {
-        const int reach = static_cast<int>(std::ceil(distance / bucket_));
-        const int cx = column(at.x), cy = row(at.y);
-        for (int j = std::max(0, cy - reach); j <= std::min(rows_ - 1, cy + reach); ++j)
-            for (int i = std::max(0, cx - reach); i <= std::min(columns_ - 1, cx + reach); ++i)
-                for (int s = first_[slot(i, j)]; s >= 0; s = next_[static_cast<std::size_t>(s)])
-                    if (glm::distance(Vec2(sites[static_cast<std::size_t>(s)].at), at) < distance)
-                        return true;
-        return false;
-    }
-    // Must be called for the sites in their order.
-    void add(Vec2 at) {
-        const std::size_t s = slot(column(at.x), row(at.y));
-        next_.push_back(first_[s]);
-        first_[s] = static_cast<int>(next_.size()) - 1;
-    }
-
-private:
-    int count(int length) const { return static_cast<int>(length / bucket_) + 1; }
-    int column(double x) const {
-        return std::clamp(static_cast<int>((x - origin_.x) / bucket_), 0, columns_ - 1);
-    }
-    int row(double y) const { return std::clamp(static_cast<int>((y - origin_.y) / bucket_), 0, rows_ - 1); }
-    std::size_t slot(int i, int j) const {
-        return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i);
-    }
-
-    double bucket_;
-    Vec2 origin_;
-    int columns_, rows_;
-    std::vector<int> first_, next_;
-};
-
-std::vector<CellSite> collect_source_sites(const SparseMap& sparse, const Regions& regions,
-                                           std::uint32_t label, std::uint64_t key) {
-    std::vector<CellSite> candidates;
-    const PixelRect box = regions.regions[label - 1].box;
-    for (int y = box.y0; y < box.y1; ++y) {
-        for (int x = box.x0; x < box.x1; ++x) {
-            if (regions.label.at(x, y) != label || sparse.at(x, y).photon < 0) continue;
-            const auto photon = static_cast<std::uint64_t>(sparse.at(x, y).photon);
-            candidates.push_back(make_site(sparse.at(x, y).at, hash_words(key, photon)));
-        }
-    }
-    return candidates;
+CellSite make_site(Vec2f at, Vec3f position, std::uint64_t hash) {
+    return {at, position, 0, hash, unit_float(hash_words(hash, 1))};
 }
 
-// Sites of a jittered grid wherever no source site is within a cell width.
-void fill_holes(std::vector<CellSite>& sites, Occupied& occupied, const Regions& regions, std::uint32_t label,
-                double cell, std::uint64_t key) {
-    const PixelRect box = regions.regions[label - 1].box;
-    for (int j = static_cast<int>(std::floor(box.y0 / cell)); j * cell < box.y1; ++j) {
-        for (int i = static_cast<int>(std::floor(box.x0 / cell)); i * cell < box.x1; ++i) {
-            const std::uint64_t hash = hash_words(key, 1ull << 63 | static_cast<std::uint64_t>(j) << 31 |
-                                                           static_cast<std::uint64_t>(i));
-            const Vec2 at((i + unit_double(hash_words(hash, 2))) * cell,
-                          (j + unit_double(hash_words(hash, 3))) * cell);
-            const int x = static_cast<int>(at.x), y = static_cast<int>(at.y);
-            if (x < box.x0 || y < box.y0 || x >= box.x1 || y >= box.y1 || regions.label.at(x, y) != label)
-                continue;
-            if (occupied.any_within(sites, at, cell)) continue;
-            sites.push_back(make_site(Vec2f(at), hash));
-        }
+// A place that may become a site, and how far it must lie from those before it.
+struct Candidate {
+    CellSite site;
+    float distance;
+};
+
+float least_distance(const CellPlan& plan, const Seen& seen) {
+    return static_cast<float>(thinning * plan.cell) * brush_pixel(plan.scale, seen);
+}
+
+constexpr float growing = 0.25f; // a cell that has just found room grows over so much more of it
+
+// Photons in an order of their own, which is the same from everywhere: who is seated stays so when the camera
+// moves.
+std::vector<Candidate> seat_photons(const CellPlan& plan, std::uint64_t key) {
+    std::vector<Candidate> seated;
+    if (plan.region.object >= plan.seats.photons.size()) return seated;
+    const PixelRect box = plan.region.box;
+    std::vector<std::uint32_t> numbers;
+    float finest = std::numeric_limits<float>::infinity();
+    for (const Seat& seat : plan.seats.seen) {
+        if (seat.object != plan.region.object || seat.via != plan.region.via) continue;
+        const int x = static_cast<int>(seat.at.x), y = static_cast<int>(seat.at.y);
+        if (!box.contains(x, y) || plan.mask.at(x - box.x0, y - box.y0) == 0) continue;
+        const float distance = least_distance(plan, plan.gbuffer.seen.at(x, y));
+        seated.push_back({make_site(seat.at, seat.position, hash_place(key, seat.position)), distance});
+        numbers.push_back(seat.number);
+        finest = std::min(finest, distance);
+    }
+    if (seated.empty()) return seated;
+    const std::vector<float> spacing = spread_points(plan.seats.photons[plan.region.object], key, finest);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < seated.size(); ++i) {
+        const float distance = seated[i].distance, room = spacing[numbers[i]] / distance;
+        if (room < 1) continue;
+        seated[kept] = seated[i];
+        seated[kept++].site.radius2 = distance * distance * std::min(1.0f, (room - 1) / growing);
+    }
+    seated.resize(kept);
+    return seated;
+}
+
+// A random point of each cube of a lattice in space, laid on the surface: at the pixel that shows the foot of
+// its perpendicular, if that lies in the cube. Nothing of this hangs on the view but the width of the cubes,
+// which goes in steps of powers of two.
+void add_lattice_points(const CellPlan& plan, std::uint64_t key, int x, int y,
+                        std::vector<Candidate>& found) {
+    const Seen& seen = plan.gbuffer.seen.at(x, y);
+    const int level = std::ilogb(static_cast<float>(plan.cell) * brush_pixel(plan.scale, seen));
+    const float side = std::ldexp(1.0f, level);
+    const Vec3f reach = 0.5f * (glm::abs(seen.dpdx) + glm::abs(seen.dpdy));
+    const glm::ivec3 first(glm::floor((seen.position - reach) / side)),
+        last(glm::floor((seen.position + reach) / side));
+    if (glm::any(glm::greaterThan(last - first, glm::ivec3(3)))) return; // nearly edge-on
+    for (int i = first.x; i <= last.x; ++i)
+        for (int j = first.y; j <= last.y; ++j)
+            for (int k = first.z; k <= last.z; ++k) {
+                const Vec3f corner(glm::ivec3(i, j, k));
+                const std::uint64_t hash =
+                    hash_place(hash_words(key, static_cast<std::uint64_t>(level)), corner);
+                const Vec3f inside(unit_float(hash_words(hash, 2)), unit_float(hash_words(hash, 3)),
+                                   unit_float(hash_words(hash, 4)));
+                const Vec3f off = (corner + inside) * side - seen.position;
+                const Vec3f along = off - seen.normal * glm::dot(off, seen.normal);
+                const auto steps = footprint_offset(seen, Vec3(along));
+                if (!steps || !(std::abs(steps->x) <= 0.5 && std::abs(steps->y) <= 0.5)) continue;
+                const Vec3f foot = seen.position + along;
+                if (glm::floor(foot / side) != corner) continue;
+                CellSite site = make_site(Vec2f(Vec2(x + 0.5, y + 0.5) + *steps), foot, hash);
+                const float distance = least_distance(plan, seen);
+                site.radius2 = distance * distance;
+                found.push_back({site, distance});
+            }
+}
+
+template <class Body>
+void for_each_pixel(const CellPlan& plan, Body&& body) {
+    const PixelRect box = plan.region.box;
+    for (int y = box.y0; y < box.y1; ++y)
+        for (int x = box.x0; x < box.x1; ++x)
+            if (plan.mask.at(x - box.x0, y - box.y0) != 0) body(x, y);
+}
+
+// Takes candidates, in the order of their hashes, into the sites where those so far leave room.
+void take_in_order(std::vector<Candidate>& candidates, std::vector<CellSite>& sites) {
+    if (candidates.empty()) return;
+    std::sort(candidates.begin(), candidates.end(),
+              [](const Candidate& a, const Candidate& b) { return a.site.hash < b.site.hash; });
+    float widest = 0;
+    for (const Candidate& c : candidates) widest = std::max(widest, c.distance);
+    PointBuckets taken(widest, candidates.size());
+    for (const CellSite& site : sites) taken.add(site.position);
+    for (const Candidate& c : candidates) {
+        if (std::isfinite(taken.nearest(c.site.position, c.distance))) continue;
+        taken.add(c.site.position);
+        sites.push_back(c.site);
     }
 }
 
 } // namespace
 
-std::vector<CellSite> make_cell_sites(const SparseMap& sparse, const Regions& regions, std::uint32_t label,
-                                      double cell, std::uint64_t seed, int coat) {
-    const std::uint64_t key = coat_key(seed, coat);
-    std::vector<CellSite> candidates = collect_source_sites(sparse, regions, label, key);
-    // The order of the thinning belongs to the photons, not to the screen.
-    std::sort(candidates.begin(), candidates.end(),
-              [](const CellSite& a, const CellSite& b) { return a.hash < b.hash; });
-    const PixelRect box = regions.regions[label - 1].box;
-    const double spacing = thinning * cell;
-    Occupied occupied(box, spacing);
+std::vector<CellSite> make_cell_sites(const CellPlan& plan) {
+    const std::uint64_t key = coat_key(plan.seed, plan.coat);
     std::vector<CellSite> sites;
-    for (const CellSite& candidate : candidates) {
-        if (occupied.any_within(sites, Vec2(candidate.at), spacing)) continue;
-        occupied.add(Vec2(candidate.at));
-        sites.push_back(candidate);
-    }
-    fill_holes(sites, occupied, regions, label, cell, key);
-    if (sites.empty()) { // a region smaller than a cell that the grid missed
-        for (int y = box.y0; y < box.y1 && sites.empty(); ++y)
-            for (int x = box.x0; x < box.x1 && sites.empty(); ++x)
-                if (regions.label.at(x, y) == label)
-                    sites.push_back(make_site(Vec2f(Vec2(x + 0.5, y + 0.5)), hash_words(key, 7)));
-    }
+    for (const Candidate& seated : seat_photons(plan, key)) sites.push_back(seated.site);
+    std::vector<Candidate> lattice;
+    for_each_pixel(plan, [&](int x, int y) { add_lattice_points(plan, key, x, y, lattice); });
+    take_in_order(lattice, sites);
+    if (!sites.empty()) return sites;
+    for_each_pixel(plan, [&](int x, int y) { // a region so small that every point of the lattice missed it
+        if (sites.empty())
+            sites.push_back(make_site(Vec2f(Vec2(x + 0.5, y + 0.5)), plan.gbuffer.seen.at(x, y).position,
+                                      hash_words(key, 7)));
+    });
     return sites;
 }
 
@@ -128,6 +147,8 @@ SiteGrid build_site_grid(std::vector<CellSite> sites, PixelRect box, double buck
     grid.columns = static_cast<int>((box.x1 - box.x0) / bucket) + 1;
     grid.rows = static_cast<int>((box.y1 - box.y0) / bucket) + 1;
     grid.sites = std::move(sites);
+    for (const CellSite& site : grid.sites)
+        grid.largest_radius2 = std::max(grid.largest_radius2, site.radius2);
     const auto slot = [&](const CellSite& site) {
         const Vec2f p = (site.at - grid.origin) / grid.bucket;
         const int i = std::clamp(static_cast<int>(p.x), 0, grid.columns - 1);
@@ -145,7 +166,7 @@ SiteGrid build_site_grid(std::vector<CellSite> sites, PixelRect box, double buck
     return grid;
 }
 
-std::uint32_t nearest_site(const SiteGrid& grid, Vec2f at) {
+std::uint32_t nearest_site(const SiteGrid& grid, Vec2f at, Vec3f place, float pixel) {
     const Vec2f p = (at - grid.origin) / grid.bucket;
     const int ci = std::clamp(static_cast<int>(p.x), 0, grid.columns - 1);
     const int cj = std::clamp(static_cast<int>(p.y), 0, grid.rows - 1);
@@ -156,8 +177,8 @@ std::uint32_t nearest_site(const SiteGrid& grid, Vec2f at) {
         const std::size_t slot = static_cast<std::size_t>(j) * static_cast<std::size_t>(grid.columns) +
                                  static_cast<std::size_t>(i);
         for (std::uint32_t e = grid.begin[slot]; e < grid.begin[slot + 1]; ++e) {
-            const Vec2f d = grid.sites[grid.entries[e]].at - at;
-            const float distance2 = d.x * d.x + d.y * d.y;
+            const Vec3f d = grid.sites[grid.entries[e]].position - place;
+            const float distance2 = glm::dot(d, d) - grid.sites[grid.entries[e]].radius2;
             if (distance2 < best_distance2 || (distance2 == best_distance2 && grid.entries[e] < best)) {
                 best_distance2 = distance2;
                 best = grid.entries[e];
@@ -173,8 +194,8 @@ std::uint32_t nearest_site(const SiteGrid& grid, Vec2f at) {
             visit(ci - k, cj + ring);
             visit(ci - ring, cj - k);
         }
-        const float reach = static_cast<float>(ring) * grid.bucket;
-        if (best_distance2 <= reach * reach) break;
+        const float reach = static_cast<float>(ring) * grid.bucket * pixel;
+        if (best_distance2 + grid.largest_radius2 <= reach * reach) break;
     }
     return best;
 }

@@ -50,13 +50,13 @@ inline void integrate_path(const Canvas& canvas, const Walk& walk, int x, int y,
                 const std::uint32_t turn = offset + static_cast<std::uint32_t>(k) * 2654435769u;
                 return static_cast<float>(turn >> 8) * 0x1p-24f;
             },
-            [&](int k, std::uint32_t cell) {
+            [&](float before, float stretch, std::uint32_t cell) {
                 if (cell != run_cell) {
                     if (run_weight > 0) flush(run_cell, run_weight);
                     run_cell = cell;
                     run_weight = 0;
                 }
-                run_weight += walk.weights[static_cast<std::size_t>(k)];
+                run_weight += stretch * walk.weights[static_cast<std::size_t>(before)];
             });
     }
     if (run_weight > 0) flush(run_cell, run_weight);
@@ -201,16 +201,14 @@ double canvas_step(const RegionWork& work) {
     return std::min(scaled(work.style.step, work.picture_height), 1.0) * work.scale;
 }
 
-void paint_coat(RegionWork& work, const PaintLayer& coat, int coat_number, const SparseMap& sparse,
-                const Regions& regions, std::uint32_t label, std::vector<Painted>& painted) {
+void paint_coat(RegionWork& work, const PaintLayer& coat, int coat_number, std::vector<Painted>& painted) {
     const int height = work.picture_height;
     Image<Color> base = work.toned;
     masked_blur(base, work.mask, scaled(coat.blur, height));
     const double cell = scaled(coat.cell, height);
-    const std::vector<CellRecord> records =
-        cell <= 1 || (work.style.paper_mode && coat.cell <= 1)
-            ? make_pixel_cells(work, coat, base, cell, coat_number)
-            : make_site_cells(work, coat, base, sparse, regions, label, cell, coat_number);
+    const std::vector<CellRecord> records = cell <= 1 || (work.style.paper_mode && coat.cell <= 1)
+                                                ? make_pixel_cells(work, coat, base, cell, coat_number)
+                                                : make_site_cells(work, coat, base, cell, coat_number);
     const Walk walk =
         make_walk(scaled(coat.length, height) * work.scale, canvas_step(work), work.style.box_weights);
     const CoatSample sample = sample_coat(work, walk, records);
@@ -237,13 +235,11 @@ void paint_coat(RegionWork& work, const PaintLayer& coat, int coat_number, const
     });
 }
 
-Image<float> make_bristles(RegionWork& work, const SparseMap& sparse, const Regions& regions,
-                           std::uint32_t label) {
+Image<float> make_bristles(RegionWork& work) {
     PaintLayer hairs;
     hairs.edge = 0;
     const double cell = scaled(bristle_width, work.picture_height);
-    const std::vector<CellRecord> records =
-        make_site_cells(work, hairs, work.toned, sparse, regions, label, cell, bristle_coat);
+    const std::vector<CellRecord> records = make_site_cells(work, hairs, work.toned, cell, bristle_coat);
     const Walk walk =
         make_walk(scaled(bristle_length, work.picture_height) * work.scale, canvas_step(work), false);
     const float gain = sample_coat(work, walk, records).gain;

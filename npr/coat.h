@@ -20,11 +20,9 @@ std::vector<PaintLayer> coats_of(const PaintStyle& style);
 double canvas_step(const RegionWork& work);
 
 // Lays a coat over what is painted already, canvas pixels row by row.
-void paint_coat(RegionWork& work, const PaintLayer& coat, int coat_number, const SparseMap& sparse,
-                const Regions& regions, std::uint32_t label, std::vector<Painted>& painted);
+void paint_coat(RegionWork& work, const PaintLayer& coat, int coat_number, std::vector<Painted>& painted);
 
 // Fine noise drawn out along the strokes, unit variance, on the canvas: what the brush's hairs leave.
-Image<float> make_bristles(RegionWork& work, const SparseMap& sparse, const Regions& regions,
-                           std::uint32_t label);
+Image<float> make_bristles(RegionWork& work);
 
 } // namespace pnr

@@ -4,6 +4,7 @@
 #include "npr/direction_field.h"
 #include "npr/paint.h"
 #include "npr/relief.h"
+#include "npr/seats.h"
 #include "npr/tone.h"
 
 namespace pnr {
@@ -13,9 +14,24 @@ namespace {
 // The painter works on a canvas finer than the picture, so that the edges of strokes are smooth.
 int canvas_scale(const PaintStyle& style, int height) { return style.paper_mode || height > 1200 ? 1 : 2; }
 
+const Seen& seen_at(const RegionWork& work, int canvas_x, int canvas_y) {
+    return work.gbuffer.seen.at(work.region.box.x0 + canvas_x / work.scale,
+                                work.region.box.y0 + canvas_y / work.scale);
+}
+
+constexpr float least_stretch = 0.5f,
+                most_stretch = 4; // strokes at a silhouette would else be shorter than wide
+
+// How many pixels of the brush a step of one pixel along the direction is on the surface.
+float stretch_along(const BrushScale& brush, const Seen& seen, Vec2f direction) {
+    const float length = glm::length(seen.dpdx * direction.x + seen.dpdy * direction.y);
+    return length > 0 ? std::clamp(length / brush_pixel(brush, seen), least_stretch, most_stretch) : 1;
+}
+
 // Directions once a region; the cells change with every coat.
 Canvas make_canvas(const RegionWork& work, double step) {
     Canvas canvas;
+    canvas.scale = work.scale;
     canvas.rim = static_cast<int>(std::ceil(step)) + 1;
     canvas.width = work.mask.width * work.scale + 2 * canvas.rim;
     canvas.height = work.mask.height * work.scale + 2 * canvas.rim;
@@ -24,21 +40,31 @@ Canvas make_canvas(const RegionWork& work, double step) {
     parallel_for(work.mask.height, 8, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
         for (int y = static_cast<int>(begin) * work.scale; y < static_cast<int>(end) * work.scale; ++y)
             for (int x = 0; x < work.mask.width * work.scale; ++x)
-                if (work.mask.at(x / work.scale, y / work.scale) != 0)
-                    canvas.at(x + canvas.rim, y + canvas.rim).direction =
+                if (work.mask.at(x / work.scale, y / work.scale) != 0) {
+                    CanvasPoint& point = canvas.at(x + canvas.rim, y + canvas.rim);
+                    point.direction =
                         direction_at(work.axes, work.mask, Vec2f(Vec2(x + 0.5, y + 0.5)) * inverse);
+                    if (!work.style.paper_mode)
+                        point.stretch = stretch_along(work.brush, seen_at(work, x, y), point.direction);
+                }
     });
     return canvas;
+}
+
+void add_walls(const Folds& folds, const Region& region, Canvas& canvas) {
+    const PixelRect box = region.box;
+    canvas.walls = Image<std::uint8_t>(box.x1 - box.x0, box.y1 - box.y0);
+    for (int y = box.y0; y < box.y1; ++y)
+        for (int x = box.x0; x < box.x1; ++x) canvas.walls.at(x - box.x0, y - box.y0) = folds.walls.at(x, y);
 }
 
 constexpr double bristle_height = 0.12; // of a mark of one standard deviation, in strokes
 
 // Bristle marks and relief, added to the lightness.
-void finish_surface(RegionWork& work, const SparseMap& sparse, const Regions& regions, std::uint32_t label,
-                    std::vector<Painted>& painted) {
+void finish_surface(RegionWork& work, std::vector<Painted>& painted) {
     const PaintStyle& style = work.style;
     if (style.paper_mode || (style.bristle == 0 && style.relief == 0)) return;
-    const Image<float> marks = make_bristles(work, sparse, regions, label);
+    const Image<float> marks = make_bristles(work);
     Image<float> change(marks.width, marks.height, 0.0f);
     if (style.relief != 0) {
         Image<float> height(marks.width, marks.height);
@@ -82,10 +108,22 @@ Image<Color> finish_region(const RegionWork& work, const std::vector<Painted>& p
     return light;
 }
 
-Image<Color> paint_region(const InformativeMap& informative, const SparseMap& sparse, const World& world,
-                          const Regions& regions, std::uint32_t label, int height, std::uint64_t seed) {
+Image<Color> paint_region(const InformativeMap& informative, const Seats& seats, const World& world,
+                          const GBuffer& gbuffer, const Folds& folds, const Regions& regions,
+                          std::uint32_t label, std::uint64_t seed) {
     const Region& region = regions.regions[label - 1];
-    RegionWork work{region, world.objects[region.object].paint, region_mask(regions, label), {}, {}, {}, {}};
+    const int height = gbuffer.view.height;
+    RegionWork work{region,
+                    world.objects[region.object].paint,
+                    gbuffer,
+                    seats,
+                    region_mask(regions, label),
+                    {},
+                    {},
+                    {},
+                    {},
+                    {}};
+    work.brush = find_brush_scale(gbuffer, seats, region, work.mask);
     work.scale = canvas_scale(work.style, height);
     work.picture_height = height;
     work.seed = seed;
@@ -96,10 +134,10 @@ Image<Color> paint_region(const InformativeMap& informative, const SparseMap& sp
                     [](const PaintLayer& c) { return c.bare_plain > 0 || c.bare > 0; }))
         work.detail = find_detail(work.toned, work.mask, height);
     work.canvas = make_canvas(work, canvas_step(work));
+    if (folds.any && !work.style.paper_mode) add_walls(folds, region, work.canvas);
     std::vector<Painted> painted(work.mask.pixels.size() * static_cast<std::size_t>(work.scale * work.scale));
-    for (std::size_t i = 0; i < coats.size(); ++i)
-        paint_coat(work, coats[i], static_cast<int>(i), sparse, regions, label, painted);
-    finish_surface(work, sparse, regions, label, painted);
+    for (std::size_t i = 0; i < coats.size(); ++i) paint_coat(work, coats[i], static_cast<int>(i), painted);
+    finish_surface(work, painted);
     return finish_region(work, painted);
 }
 
@@ -124,17 +162,18 @@ std::optional<std::pair<int, int>> nearest_painted(const Regions& regions, int x
 
 } // namespace
 
-Layer convolve(const InformativeMap& informative, const SparseMap& sparse, const World& world,
+Layer convolve(const InformativeMap& informative, const Seats& seats, const World& world,
                const GBuffer& gbuffer, std::uint64_t seed, const Progress& progress) {
     const int width = informative.width, height = informative.height;
     Layer layer{Image<Color>(width, height, Color(0)), Image<float>(width, height, 0.0f)};
     const Regions regions = find_regions(informative);
+    const Folds folds = find_folds(gbuffer);
     Image<Color> light(width, height, Color(0));
     const auto count = static_cast<std::int64_t>(regions.regions.size());
     for (std::int64_t r = 0; r < count; ++r) {
         const auto label = static_cast<std::uint32_t>(r + 1);
         const Image<Color> window =
-            paint_region(informative, sparse, world, regions, label, gbuffer.view.height, seed);
+            paint_region(informative, seats, world, gbuffer, folds, regions, label, seed);
         const PixelRect box = regions.regions[static_cast<std::size_t>(r)].box;
         for (int y = box.y0; y < box.y1; ++y)
             for (int x = box.x0; x < box.x1; ++x)

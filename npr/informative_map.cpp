@@ -2,6 +2,7 @@
 // The informative interpolation process [LW10 3.2.3].
 #include "core/rng.h"
 #include "npr/color_space.h"
+#include "npr/folds.h"
 #include "npr/paint.h"
 
 #include <atomic>
@@ -46,7 +47,9 @@ struct WeightedSum {
     Vec2 axis{0}, direction{0};
 };
 
-WeightedSum sum_over_disc(const SourceRows& rows, int x, int y, double radius, std::uint64_t region) {
+// `folds`: null where the disc may reach over them.
+WeightedSum sum_over_disc(const SourceRows& rows, int x, int y, double radius, std::uint64_t region,
+                          const Folds* folds) {
     WeightedSum sum;
     const int reach = static_cast<int>(std::floor(radius));
     const int width = rows.before.width - 1;
@@ -58,6 +61,7 @@ WeightedSum sum_over_disc(const SourceRows& rows, int x, int y, double radius, s
         for (std::uint32_t i = begin; i < end; ++i) {
             const SourceRows::Source& s = rows.sources[i];
             if (s.region != region) continue;
+            if (folds != nullptr && is_folded_between(*folds, x, y, s.x, s.y)) continue;
             const double dx = s.x - x;
             const double w = 1 / (dx * dx + dy * dy);
             sum.weight += w;
@@ -132,6 +136,9 @@ InformativeMap make_informative_map(const SparseMap& sparse, const World& world,
     InformativeMap informative(sparse.width, sparse.height);
     const SourceRows rows = collect_sources(sparse);
     const NearestSources nearest = index_sources(rows);
+    const bool any_folds = std::any_of(world.objects.begin(), world.objects.end(),
+                                       [](const WorldObject& o) { return o.npr && o.paint.folds; });
+    const Folds folds = any_folds ? find_folds(gbuffer) : Folds{};
     std::vector<double> radii;
     for (const WorldObject& object : world.objects)
         radii.push_back(scaled(object.paint.radius, gbuffer.view.height));
@@ -156,7 +163,8 @@ InformativeMap make_informative_map(const SparseMap& sparse, const World& world,
                 }
                 const PaintStyle& style = world.objects[seen.object].paint;
                 const std::uint64_t region = region_key(seen.object, seen.via);
-                const WeightedSum sum = sum_over_disc(rows, x, y, radii[seen.object], region);
+                const WeightedSum sum = sum_over_disc(rows, x, y, radii[seen.object], region,
+                                                      style.folds && folds.any ? &folds : nullptr);
                 if (sum.weight > 0) {
                     pixel.kind = PixelKind::interpolated;
                     pixel.radiance = Color(sum.radiance / sum.weight);

@@ -45,10 +45,10 @@ std::vector<CellRecord> make_pixel_cells(RegionWork& work, const PaintLayer& coa
 }
 
 std::vector<CellRecord> make_site_cells(RegionWork& work, const PaintLayer& coat, const Image<Color>& base,
-                                        const SparseMap& sparse, const Regions& regions, std::uint32_t label,
                                         double cell, int coat_number) {
-    const SiteGrid grid = build_site_grid(
-        make_cell_sites(sparse, regions, label, cell, work.seed, coat_number), work.region.box, cell);
+    const CellPlan plan{work.gbuffer, work.seats, work.region, work.mask,
+                        work.brush,   cell,       work.seed,   coat_number};
+    const SiteGrid grid = build_site_grid(make_cell_sites(plan), work.region.box, cell);
     std::vector<CellRecord> records;
     records.reserve(grid.sites.size());
     for (const CellSite& site : grid.sites) {
@@ -57,10 +57,14 @@ std::vector<CellRecord> make_site_cells(RegionWork& work, const PaintLayer& coat
         records.push_back(make_record(work, coat, base.at(x, y), site.hash, site.priority));
     }
     const float inverse = 1.0f / static_cast<float>(work.scale);
-    const Vec2f corner(work.region.box.x0, work.region.box.y0);
     for_each_canvas_row(work, [&](int x, int y, std::int64_t) {
-        work.canvas.at(x + work.canvas.rim, y + work.canvas.rim).cell =
-            nearest_site(grid, corner + Vec2f(Vec2(x + 0.5, y + 0.5)) * inverse);
+        const int px = work.region.box.x0 + x / work.scale, py = work.region.box.y0 + y / work.scale;
+        const Seen& seen = work.gbuffer.seen.at(px, py);
+        const Vec2f at =
+            Vec2f(work.region.box.x0, work.region.box.y0) + Vec2f(Vec2(x + 0.5, y + 0.5)) * inverse;
+        const Vec2f off = at - Vec2f(Vec2(px + 0.5, py + 0.5));
+        work.canvas.at(x + work.canvas.rim, y + work.canvas.rim).cell = nearest_site(
+            grid, at, seen.position + off.x * seen.dpdx + off.y * seen.dpdy, footprint_of(seen).least);
     });
     return records;
 }

@@ -5,8 +5,10 @@
 
 #include "core/parallel.h"
 #include "core/settings.h"
+#include "npr/brush_scale.h"
 #include "npr/maps.h"
 #include "npr/regions.h"
+#include "npr/seats.h"
 #include "npr/streamline.h"
 
 #include <vector>
@@ -17,7 +19,10 @@ namespace pnr {
 struct RegionWork {
     const Region& region;
     const PaintStyle& style;
+    const GBuffer& gbuffer;
+    const Seats& seats;
     Image<std::uint8_t> mask;
+    BrushScale brush;
     Image<Vec2f> axes;
     Image<Color> toned;
     Image<float> detail; // empty when no coat asks for it
@@ -55,9 +60,8 @@ inline void for_each_canvas_row(const RegionWork& work, Body&& body) {
 // [LW10]: noise a pixel of a 512-high picture, each on the pixel's own colour.
 std::vector<CellRecord> make_pixel_cells(RegionWork& work, const PaintLayer& coat, const Image<Color>& base,
                                          double cell, int coat_number);
-// Cells about source pixels (cells.h), of the colour at their site.
+// Cells about seats (cells.h), of the colour at their site.
 std::vector<CellRecord> make_site_cells(RegionWork& work, const PaintLayer& coat, const Image<Color>& base,
-                                        const SparseMap& sparse, const Regions& regions, std::uint32_t label,
                                         double cell, int coat_number);
 
 } // namespace pnr

@@ -6,6 +6,7 @@
 #include "core/settings.h"
 #include "npr/maps.h"
 #include "npr/orientation.h"
+#include "npr/seats.h"
 
 #include <functional>
 #include <span>
@@ -24,7 +25,7 @@ InformativeMap make_informative_map(const SparseMap& sparse, const World& world,
                                     std::uint64_t seed, const Progress& progress = {});
 // [LW10 3.2.4; Wang and Lee 2003]: noise, smoothing, impressionistic line integral convolution. Premultiplied
 // by coverage, mix and the chain's weight.
-Layer convolve(const InformativeMap& informative, const SparseMap& sparse, const World& world,
+Layer convolve(const InformativeMap& informative, const Seats& seats, const World& world,
                const GBuffer& gbuffer, std::uint64_t seed, const Progress& progress = {});
 
 // Radius of the informative disc of an object in pixels of this picture.

@@ -67,8 +67,8 @@ InformativeMap inform_by_gradient(const Image<Color>& picture) {
     return map;
 }
 
-Image<Color> paint_picture(const Image<Color>& picture, const PaintStyle& style, std::uint64_t seed,
-                           const Progress& progress) {
+Image<Color> paint_picture(const Image<Color>& picture, const Image<std::uint8_t>& mask, const PaintStyle& style,
+                           std::uint64_t seed, const Progress& progress) {
     World world;
     world.objects.resize(2);
     world.objects[1].npr = true;
@@ -79,10 +79,27 @@ Image<Color> paint_picture(const Image<Color>& picture, const PaintStyle& style,
     gbuffer.view.height = picture.height;
     gbuffer.window = {0, 0, picture.width, picture.height};
     gbuffer.seen = Image<Seen>(picture.width, picture.height);
-    for (Seen& seen : gbuffer.seen.pixels) seen.object = 1, seen.npr = true, seen.z = 1;
-    gbuffer.coverage = Image<float>(picture.width, picture.height, 1.0f);
-    const SparseMap no_sources(picture.width, picture.height); // the strokes sit on a jittered grid
-    return convolve(inform_by_gradient(picture), no_sources, world, gbuffer, seed, progress).color;
+    gbuffer.coverage = Image<float>(picture.width, picture.height, 0.0f);
+    const auto width = static_cast<std::size_t>(picture.width);
+    InformativeMap informative = inform_by_gradient(picture);
+    for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
+        if (mask.pixels[i] == 0) {
+            informative.pixels[i] = {};
+            continue;
+        }
+        Seen& seen = gbuffer.seen.pixels[i];
+        seen.object = 1, seen.npr = true, seen.z = 1;
+        seen.position = Vec3f(static_cast<float>(i % width) + 0.5f, static_cast<float>(i / width) + 0.5f, 0); // a flat thing that faces the viewer
+        seen.normal = {0, 0, -1};
+        seen.dpdx = {1, 0, 0}, seen.dpdy = {0, 1, 0};
+        gbuffer.coverage.pixels[i] = 1;
+    }
+    return convolve(informative, Seats{}, world, gbuffer, seed, progress).color;
+}
+
+Image<Color> paint_picture(const Image<Color>& picture, const PaintStyle& style, std::uint64_t seed,
+                           const Progress& progress) {
+    return paint_picture(picture, Image<std::uint8_t>(picture.width, picture.height, 1), style, seed, progress);
 }
 
 } // namespace pnr

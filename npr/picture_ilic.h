@@ -19,5 +19,8 @@ InformativeMap inform_by_gradient(const Image<Color>& picture);
 // at 512 and scale with the height. Throws Interrupted when progress says stop.
 Image<Color> paint_picture(const Image<Color>& picture, const PaintStyle& style, std::uint64_t seed,
                            const Progress& progress = {});
+// The same on the part of the picture where the mask, of its size, is not 0; black elsewhere.
+Image<Color> paint_picture(const Image<Color>& picture, const Image<std::uint8_t>& mask, const PaintStyle& style,
+                           std::uint64_t seed, const Progress& progress = {});
 
 } // namespace pnr

@@ -10,14 +10,12 @@ namespace {
 constexpr double coincidence = 1e-9; // of the extent: closer points are one
 constexpr double flatness = 1e-6;    // relative spread below which points count as coplanar or collinear
 
-double kernel_value(RbfKernel kernel, double distance2, double width2) {
+double kernel_value(RbfKernel kernel, double distance2) {
     switch (kernel) {
     case RbfKernel::biharmonic:
         return -std::sqrt(distance2);
     case RbfKernel::triharmonic:
         return distance2 * std::sqrt(distance2);
-    case RbfKernel::gaussian:
-        return std::exp(-distance2 / width2);
     }
     return 0;
 }
@@ -78,18 +76,6 @@ std::vector<Vec3> spread_directions(const std::vector<Vec3>& points) {
     return directions;
 }
 
-double gaussian_width2(const std::vector<Vec3>& points) {
-    double sum = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        double nearest = infinity;
-        for (std::size_t j = 0; j < points.size(); ++j)
-            if (j != i) nearest = std::min(nearest, glm::distance(points[i], points[j]));
-        if (std::isfinite(nearest)) sum += nearest;
-    }
-    const double width = 1.5 * sum / static_cast<double>(points.size());
-    return width > 0 ? width * width : 1;
-}
-
 // The saddle-point system of [Carr et al. 2001, eq. 12]: kernel matrix, polynomial terms, and their side
 // conditions.
 Eigen::MatrixXd assemble(const Rbf& rbf, double smooth) {
@@ -101,7 +87,7 @@ Eigen::MatrixXd assemble(const Rbf& rbf, double smooth) {
         const Vec3& p = rbf.centers[static_cast<std::size_t>(i)];
         for (Eigen::Index j = 0; j < n; ++j) {
             const Vec3 d = p - rbf.centers[static_cast<std::size_t>(j)];
-            system(i, j) = kernel_value(rbf.kernel, glm::dot(d, d), rbf.width2);
+            system(i, j) = kernel_value(rbf.kernel, glm::dot(d, d));
             if (i != j) beside += std::abs(system(i, j));
         }
         system(i, n) = system(n, i) = 1;
@@ -111,7 +97,7 @@ Eigen::MatrixXd assemble(const Rbf& rbf, double smooth) {
     }
     if (smooth > 0 && n > 1) {
         beside /= static_cast<double>(n * (n - 1));
-        // With these signs (-r, r^3, Gaussian) the kernel matrix is positive on weights that meet the side
+        // With these signs (-r, r^3) the kernel matrix is positive on weights that meet the side
         // conditions, so a larger diagonal always smooths.
         for (Eigen::Index i = 0; i < n; ++i) system(i, i) += smooth * beside;
     }
@@ -127,7 +113,6 @@ Rbf solve_rbf(std::span<const Vec3> points, std::span<const double> values, int 
     rbf.components = components;
     const Samples samples = normalise(points, values, components, rbf);
     rbf.centers = samples.points;
-    rbf.width2 = gaussian_width2(rbf.centers);
     const auto width = static_cast<Eigen::Index>(components);
     const auto n = static_cast<Eigen::Index>(rbf.centers.size());
     if (n == 1) { // a constant: nothing to solve
@@ -177,7 +162,7 @@ void eval_rbf(const Rbf& rbf, Vec3 point, std::span<double> result) {
     }
     for (std::size_t i = 0; i < rbf.centers.size(); ++i) {
         const Vec3 d = p - rbf.centers[i];
-        const double phi = kernel_value(rbf.kernel, glm::dot(d, d), rbf.width2);
+        const double phi = kernel_value(rbf.kernel, glm::dot(d, d));
         for (std::size_t c = 0; c < width; ++c) result[c] += phi * rbf.weights[i * width + c];
     }
 }

@@ -2,10 +2,13 @@
 // The functions that ask something of a declared object. Its geometry is built once, however often it is
 // asked.
 #include "core/probe.h"
+#include "core/shape_field.h"
 #include "parser/builtins.h"
 #include "parser/expander.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace pnr {
 
@@ -47,12 +50,24 @@ Vec3 point_argument(Parser& p, const Token& name) {
 
 VectorValue vector_of(Vec3 v) { return {{v.x, v.y, v.z, 0, 0}, 3, false}; }
 
+// How long a ray takes, in tokens; more where numbers are searched for.
+std::int64_t ray_work(const Object& object) {
+    std::int64_t work = 50;
+    if (object.shape) {
+        if (const auto* julia = std::get_if<JuliaFractal>(&*object.shape)) work += 400 * julia->data->max_iteration;
+        if (std::holds_alternative<Isosurface>(*object.shape)) work += 500;
+    }
+    for (const Object& child : object.children) work = std::max(work, ray_work(child)); // most boxes are missed
+    return work;
+}
+
 // trace(object, from, direction [, normal]): the place of the first hit; the variable `normal` becomes the
 // normal there, or zero where nothing is hit.
 VectorValue trace_object(Parser& p, const Token& name, const Declared& object) {
     const Vec3 from = point_argument(p, name), direction = point_argument(p, name);
-    charge_work(p, name, 50); // rays take their time
-    const auto hit = trace(probe_of(p, name, object), from, direction);
+    const Probe& probe = probe_of(p, name, object);
+    charge_work(p, name, ray_work(std::get<Object>(*object)));
+    const auto hit = trace(probe, from, direction);
     if (accept(p, ',')) {
         const Token variable = peek(p);
         const Value* value = variable.kind == TokenKind::word ? lookup(p.in, variable.symbol) : nullptr;

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
 #include <string>
 
 namespace pnr {
@@ -121,25 +124,45 @@ void append_json_place(std::string& out, const Span& span, const Sources& source
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
+constexpr std::size_t longest_word = 64; // that neighbours are looked for
+
 // Edit distance with swaps of neighbours [Damerau 1964]; a different case costs nothing but the tie. More
-// than `limit`: limit + 1.
+// than `limit`: limit + 1. Words of at most `longest_word` bytes.
 std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t limit) {
     const std::size_t gap = a.size() > b.size() ? a.size() - b.size() : b.size() - a.size();
     if (gap > limit) return limit + 1;
-    std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+    using Row = std::array<std::size_t, longest_word + 1>;
+    Row rows[3];
+    Row *before = &rows[0], *last = &rows[1], *row = &rows[2];
+    for (std::size_t j = 0; j <= b.size(); ++j) (*before)[j] = (*last)[j] = j;
+    std::size_t least_before = 0;
     for (std::size_t i = 1; i <= a.size(); ++i) {
-        row[0] = i;
+        (*row)[0] = i;
+        std::size_t least = i;
+        const char letter = lower(a[i - 1]);
         for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t change = lower(a[i - 1]) != lower(b[j - 1]);
-            row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + change});
-            if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
-                row[j] = std::min(row[j], before[j - 2] + 1);
+            const char other = lower(b[j - 1]);
+            std::size_t cost = (*last)[j - 1] + (letter != other);
+            if ((*last)[j] + 1 < cost) cost = (*last)[j] + 1;
+            if ((*row)[j - 1] + 1 < cost) cost = (*row)[j - 1] + 1;
+            if (i > 1 && j > 1 && letter == lower(b[j - 2]) && lower(a[i - 2]) == other && (*before)[j - 2] + 1 < cost)
+                cost = (*before)[j - 2] + 1;
+            (*row)[j] = cost;
+            if (cost < least) least = cost;
         }
-        std::swap(before, last);
-        std::swap(last, row);
+        if (least > limit && least_before > limit) return limit + 1; // no way on comes back below
+        least_before = least;
+        Row* const oldest = before;
+        before = last, last = row, row = oldest;
     }
-    return last[b.size()];
+    return std::min((*last)[b.size()], limit + 1);
+}
+
+// Which letters a word has. One change of a word changes at most two bits.
+std::uint32_t letters_of(std::string_view word) {
+    std::uint32_t letters = 0;
+    for (const char c : word) letters |= 1u << (static_cast<unsigned char>(lower(c)) & 31);
+    return letters;
 }
 
 } // namespace
@@ -177,13 +200,15 @@ std::string format_json(const std::vector<Diagnostic>& diagnostics, const Source
 }
 
 std::string_view nearest_word(std::string_view word, const std::vector<std::string_view>& candidates) {
-    if (word.size() > 64) return {};
+    if (word.size() > longest_word) return {};
     std::size_t best = std::max<std::size_t>(word.size() / 3, 1);
     if (word.size() == 1) best = 0; // one letter for another says nothing; only its case
     std::string_view nearest;
     bool found = false;
+    const std::uint32_t letters = letters_of(word);
     for (const std::string_view candidate : candidates) {
-        if (candidate == word) continue;
+        if (candidate == word || candidate.size() > longest_word) continue;
+        if (static_cast<std::size_t>(std::popcount(letters ^ letters_of(candidate))) > 2 * best) continue;
         const std::size_t distance = edit_distance(word, candidate, best);
         if (distance < best + !found || (found && distance == best && candidate < nearest)) {
             best = distance;

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace pnr {
 
 namespace {
@@ -93,6 +95,7 @@ void push_part(Parser& p, const Span& span) {
     if (tokens.empty()) {
         tokens = lex(in.sources.files[span.source], in.words, in.strings,
                      {span.begin, span.end, false, tokens_allowed(in)});
+        in.symbols.resize(std::max(in.symbols.size(), in.words.texts.size())); // what looked like a number may be a word
         *in.bytes += static_cast<std::int64_t>(tokens.size() * sizeof(StoredToken));
     }
     TokenFrame frame = in.frames.back();
@@ -140,6 +143,10 @@ void fill(Parser& p, bool behind_operand) {
             continue;
         case TokenKind::invalid:
             if (stored.name.jump == 0) stop(p, token, in.strings[token.symbol]);
+            if (stored.name.jump == 1) {
+                warn(p, token, in.strings[token.symbol]);
+                continue;
+            }
             fail(p, token, in.strings[token.symbol]);
         default:
             break;
@@ -266,8 +273,10 @@ const std::vector<StoredToken>& tokens_of(Parser& p, std::uint32_t source) {
     if (tokens.empty()) {
         LexRange all;
         all.most = tokens_allowed(in);
+        const std::size_t strings = in.strings.size();
         tokens = lex(in.sources.files[source], in.words, in.strings, all);
-        *in.bytes += static_cast<std::int64_t>(tokens.size() * sizeof(StoredToken));
+        *in.bytes += static_cast<std::int64_t>(tokens.size() * sizeof(StoredToken) +
+                                               (in.strings.size() - strings) * sizeof(std::string));
         in.symbols.resize(in.words.texts.size());
     }
     return tokens;

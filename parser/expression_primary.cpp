@@ -3,6 +3,7 @@
 // strings, arrays, blocks.
 #include "parser/blocks.h"
 #include "parser/color_space.h"
+#include "parser/content.h"
 #include "parser/expression.h"
 #include "parser/function.h"
 #include "parser/quick_expression.h"
@@ -460,7 +461,7 @@ Value value_of(Parser& p, Angles angles) {
             return Value{parse_string(p)};
         } else if (!at_expression(p)) {
             if (auto block_value = parse_declared_block(p))
-                return Value{std::make_shared<const DeclaredBlock>(std::move(*block_value))};
+                return Value{make_declared(p, token, std::move(*block_value))};
         }
     }
     VectorValue number = parse_operand_expression(p, angles);

@@ -18,7 +18,7 @@ namespace {
 using Kind = Instruction::Kind;
 
 constexpr std::size_t most_results = 5;
-constexpr int most_terms = 1'000'000; // of sum() and prod()
+constexpr std::int64_t most_terms = 1'000'000; // of sum() and prod()
 
 double apply(Kind kind, double a, double b) {
     switch (kind) {
@@ -61,10 +61,11 @@ double apply(Kind kind, double a, double b) {
     }
 }
 
-double run(const Function& function, const double* arguments, double* stack);
+double run(const Function& function, const double* arguments, double* stack, std::int64_t& terms);
 
-double call(const Function& callee, std::uint8_t component, const double* arguments, double* stack) {
-    if (!callee.native) return run(callee, arguments, stack);
+double call(const Function& callee, std::uint8_t component, const double* arguments, double* stack,
+            std::int64_t& terms) {
+    if (!callee.native) return run(callee, arguments, stack, terms);
     double results[most_results] = {};
     callee.native(arguments, results);
     if (component == Instruction::gray_component) return brightness(results);
@@ -73,20 +74,19 @@ double call(const Function& callee, std::uint8_t component, const double* argume
 
 // sum(i, first, last, term) and prod: `term` has this function's parameters and then i.
 double run_series(const Function& term, bool is_sum, const double* arguments, double first, double last,
-                  double* stack) {
+                  double* stack, std::int64_t& terms) {
     std::copy_n(arguments, term.parameters - 1, stack);
     double result = is_sum ? 0 : 1;
-    int turns = 0;
     for (double i = first; i <= last + 1e-10; i += 1) {
-        if (++turns > most_terms) return std::numeric_limits<double>::quiet_NaN();
+        if (--terms < 0) return std::numeric_limits<double>::quiet_NaN();
         stack[term.parameters - 1] = i;
-        const double value = call(term, 0, stack, stack + term.parameters);
+        const double value = call(term, 0, stack, stack + term.parameters, terms);
         result = is_sum ? result + value : result * value;
     }
     return result;
 }
 
-double run(const Function& function, const double* arguments, double* stack) {
+double run(const Function& function, const double* arguments, double* stack, std::int64_t& terms) {
     double* top = stack; // one behind the last number
     for (const Instruction& step : function.code) {
         switch (step.kind) {
@@ -118,7 +118,7 @@ double run(const Function& function, const double* arguments, double* stack) {
         case Kind::call: {
             const Function& callee = *function.calls[step.index];
             top -= callee.parameters;
-            *top = call(callee, step.component, top, top + callee.parameters);
+            *top = call(callee, step.component, top, top + callee.parameters, terms);
             ++top;
             break;
         }
@@ -133,7 +133,7 @@ double run(const Function& function, const double* arguments, double* stack) {
         case Kind::product:
             --top;
             top[-1] = run_series(*function.calls[step.index], step.kind == Kind::sum, arguments, top[-1],
-                                 top[0], top);
+                                 top[0], top, terms);
             break;
         default:
             --top;
@@ -145,22 +145,36 @@ double run(const Function& function, const double* arguments, double* stack) {
 
 } // namespace
 
-double evaluate(const Function& function, std::span<const double> arguments) {
+double evaluate(const Function& function, std::span<const double> arguments, std::int64_t& terms) {
     constexpr int usual = 64;
     if (function.stack < usual) {
         std::array<double, usual> stack;
-        return call(function, 0, arguments.data(), stack.data());
+        return call(function, 0, arguments.data(), stack.data(), terms);
     }
     std::vector<double> stack(static_cast<std::size_t>(function.stack) + 1);
-    return call(function, 0, arguments.data(), stack.data());
+    return call(function, 0, arguments.data(), stack.data(), terms);
 }
 
-ScalarField field_of(std::shared_ptr<const Function> function) {
-    return [function = std::move(function)](Vec3 p) {
-        const std::array<double, 3> arguments{p.x, p.y, p.z};
-        return evaluate(*function,
-                        std::span(arguments).first(static_cast<std::size_t>(function->parameters)));
-    };
+double evaluate(const Function& function, std::span<const double> arguments) {
+    std::int64_t terms = most_terms;
+    return evaluate(function, arguments, terms);
+}
+
+double FunctionField::operator()(Vec3 p) const {
+    const std::array<double, 3> arguments{p.x, p.y, p.z};
+    return evaluate(*function, std::span(arguments).first(static_cast<std::size_t>(function->parameters)));
+}
+
+void charge_calls(Parser& p, const Token& at, const Function& function, double calls) {
+    constexpr double instructions = 10; // in the time of a token
+    p.in.used.tokens += static_cast<std::int64_t>(std::min(function.cost / instructions * calls, 1e15));
+    if (p.in.used.tokens > p.in.options.budgets.tokens)
+        stop_at_limit(p, at, &Budgets::tokens, "this function takes more work than a scene may ask for");
+}
+
+void charge_costly(Parser& p, const Token& at, const Function& function) {
+    constexpr double costly = 1e4, calls = 1000;
+    if (function.cost > costly) charge_calls(p, at, function, calls);
 }
 
 VectorValue call_function(Parser& p, const Token& name, const std::shared_ptr<const Function>& function) {
@@ -180,14 +194,17 @@ VectorValue call_function(Parser& p, const Token& name, const std::shared_ptr<co
         fail(p, name,
              fmt::format("`{}` takes {} arguments, {} are given", token_text(p, name, false),
                          function->parameters, arguments.size()));
-    charge_work(p, name, static_cast<std::int64_t>(function->cost / 10));
+    charge_calls(p, name, *function, 1);
     VectorValue result;
     result.size = function->results;
     result.is_color = function->results == 5;
     if (function->native)
         function->native(arguments.data(), result.v);
-    else
-        result.v[0] = evaluate(*function, arguments);
+    else {
+        std::int64_t terms = most_terms;
+        result.v[0] = evaluate(*function, arguments, terms);
+        charge_work(p, name, (most_terms - terms) / 2);
+    }
     for (int i = 0; i < result.size; ++i)
         if (!std::isfinite(result.v[i]))
             fail(p, name, fmt::format("`{}` has no finite value here", token_text(p, name, false)));

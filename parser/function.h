@@ -68,15 +68,25 @@ struct Function {
     int results = 1;         // 3: of a transform, 2 to 5: of a spline, 5: of a pigment
     int stack = 1;           // numbers it needs at once
     double cost = 0;         // instructions run by one call, those of called functions included
+    int depth = 0;           // of functions and pigments inside each other
     std::string unsupported; // why it cannot be called; empty if it can
 };
 
 // The value; may be NaN or infinite where the function has none. `arguments` has as many numbers as
-// parameters.
-double evaluate(const Function& function, std::span<const double> arguments);
+// parameters. Its sum() and prod() together have at most `terms` terms, else it is NaN; what is left is in `terms` then.
+double evaluate(const Function& function, std::span<const double> arguments, std::int64_t& terms);
+double evaluate(const Function& function, std::span<const double> arguments); // at most a million terms
 
 // A function of at most three parameters as a field: x, y, z are its arguments.
-ScalarField field_of(std::shared_ptr<const Function> function);
+struct FunctionField {
+    std::shared_ptr<const Function> function;
+    double operator()(Vec3 p) const;
+};
+
+// Counts what it takes to call the function so often, as tokens.
+void charge_calls(Parser& p, const Token& at, const Function& function, double calls);
+// The same for a surface or a pattern, which will ask very often, if a single call takes long.
+void charge_costly(Parser& p, const Token& at, const Function& function);
 
 // `function [(names)] { expression }`, the word being next. Without names they are x, y, z, and u, v mean x,
 // y. What we cannot evaluate is read and marked as unsupported.

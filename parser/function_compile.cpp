@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Compiling a function's text to its program.
 #include "parser/builtins.h"
+#include "parser/content.h"
 #include "parser/function.h"
 
 #include <fmt/format.h>
@@ -143,6 +144,19 @@ std::uint8_t compile_component(Compiler& c, const Function& callee, const Token&
     return static_cast<std::uint8_t>(number);
 }
 
+// The function being compiled calls another one.
+void deepen(Compiler& c, const Function& callee, const Token& name) {
+    c.function.depth = std::max(c.function.depth, callee.depth + 1);
+    check_depth(c.p, name, c.function.depth);
+}
+
+// How many terms a series has whose bounds are given by this code; a guess where they are no plain numbers.
+double known_terms(std::span<const Instruction> bounds) {
+    constexpr double guess = 10, most = 1e6;
+    if (bounds.size() != 2 || bounds[0].kind != Kind::constant || bounds[1].kind != Kind::constant) return guess;
+    return std::clamp(bounds[1].value - bounds[0].value + 1, 1.0, most);
+}
+
 void compile_call(Compiler& c, const std::shared_ptr<const Function>& callee, const Token& name) {
     next(c.p);
     if (!callee->unsupported.empty()) c.function.unsupported = callee->unsupported;
@@ -159,6 +173,7 @@ void compile_call(Compiler& c, const std::shared_ptr<const Function>& callee, co
                          callee->parameters, count));
     c.function.calls.push_back(callee);
     c.function.cost += callee->cost;
+    deepen(c, *callee, name);
     c.function.stack = std::max(c.function.stack, c.depth + callee->stack + 1);
     Instruction step{.kind = Kind::call, .index = static_cast<std::uint32_t>(c.function.calls.size() - 1)};
     // A function that is nothing but an internal one needs no frame of its own.
@@ -178,10 +193,12 @@ void compile_series(Compiler& c, const Token& name) {
         fail(c.p, variable,
              fmt::format("{} needs the name of its variable first", token_text(c.p, name, false)));
     comma_argument(c.p, name);
+    const std::size_t bounds = c.function.code.size();
     compile(c, 1);
     comma_argument(c.p, name);
     compile(c, 1);
     comma_argument(c.p, name);
+    const double terms = known_terms(std::span(c.function.code).subspan(bounds));
     auto term = std::make_shared<Function>();
     term->parameters = c.function.parameters + 1;
     Compiler inner{c.p, *term, c.names, 0};
@@ -189,7 +206,8 @@ void compile_series(Compiler& c, const Token& name) {
     compile(inner, 1);
     close_arguments(c.p, name);
     c.function.calls.push_back(term);
-    c.function.cost += term->cost;
+    c.function.cost += terms * term->cost;
+    deepen(c, *term, name);
     c.function.stack = std::max(c.function.stack, c.depth + term->parameters + term->stack + 1);
     if (!term->unsupported.empty()) c.function.unsupported = term->unsupported;
     emit(c,

@@ -2,6 +2,7 @@
 // Functions whose body is no expression: internal, transform, spline, pigment and pattern functions.
 #include "core/internal_functions.h"
 #include "parser/blocks.h"
+#include "parser/content.h"
 #include "parser/expression.h"
 #include "parser/function.h"
 #include "parser/spline.h"
@@ -62,6 +63,7 @@ void parse_pattern_function(Parser& p, Function& function) {
     function.parameters = 3;
     function.cost = 50;
     auto pattern = std::make_shared<const Pattern>(prepared(p, parse_pattern_block(p)));
+    function.depth = weight_of(*pattern).depth;
     function.native = [pattern = std::move(pattern)](const double* a, double* results) {
         results[0] = eval_pattern(*pattern, {Vec3(a[0], a[1], a[2]), Vec2(a[0], a[1])});
     };
@@ -74,6 +76,7 @@ void parse_pigment_function(Parser& p, Function& function) {
     function.results = 5;
     function.cost = 50;
     auto pigment = std::make_shared<const Pigment>(prepared(p, parse_pigment(p, Pigment{})));
+    function.depth = weight_of(*pigment).depth;
     function.native = [pigment = std::move(pigment)](const double* a, double* results) {
         const ColorFT color = eval_pigment(*pigment, {Vec3(a[0], a[1], a[2]), Vec2(a[0], a[1])});
         for (int i = 0; i < 3; ++i) results[i] = color.rgb[i];

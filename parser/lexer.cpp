@@ -40,6 +40,7 @@ struct Lexer {
     const char* end;
     bool keep_numbers;
     std::int64_t most;
+    std::int64_t beside = 0; // memory that tokens take elsewhere, counted in tokens
     const char* long_string = nullptr; // the first string that runs over several lines
 };
 
@@ -55,9 +56,15 @@ StoredToken& add(Lexer& lexer, TokenKind kind, const char* from, Symbol symbol) 
     return token;
 }
 
+Symbol add_string(Lexer& lexer, std::string text) {
+    lexer.beside += static_cast<std::int64_t>((3 * sizeof(std::string) / 2 + text.size()) / sizeof(StoredToken));
+    lexer.strings.push_back(std::move(text));
+    return static_cast<Symbol>(lexer.strings.size() - 1);
+}
+
 void add_invalid(Lexer& lexer, const char* from, std::string message) {
-    lexer.strings.push_back(std::move(message));
-    add(lexer, TokenKind::invalid, from, static_cast<Symbol>(lexer.strings.size() - 1));
+    const Symbol text = add_string(lexer, std::move(message));
+    add(lexer, TokenKind::invalid, from, text);
 }
 
 // Comments nest, as in POV-Ray.
@@ -185,8 +192,8 @@ void lex_string(Lexer& lexer) {
     }
     ++lexer.at;
     if (lexer.long_string == nullptr && text.find('\n') != std::string::npos) lexer.long_string = from;
-    lexer.strings.push_back(std::move(text));
-    add(lexer, TokenKind::string, from, static_cast<Symbol>(lexer.strings.size() - 1));
+    const Symbol kept = add_string(lexer, std::move(text));
+    add(lexer, TokenKind::string, from, kept);
 }
 
 void lex_number(Lexer& lexer) {
@@ -227,11 +234,15 @@ void lex_directive(Lexer& lexer) {
     while (lexer.at < lexer.end && (is_letter(*lexer.at) || is_digit(*lexer.at))) ++lexer.at;
     if (word == lexer.at) {
         lexer.at = from + 1;
-        add_invalid(lexer, from, "`#` must be followed by the name of a directive");
+        while (lexer.at < lexer.end && *lexer.at == '#') ++lexer.at; // a run of them is one
+        if (lexer.at < lexer.end && is_letter(*lexer.at)) --lexer.at;
+        add_invalid(lexer, from, "a `#` without the name of a directive means nothing");
+        lexer.tokens.back().name.jump = 1; // POV-Ray passes over it
         return;
     }
     const std::string_view text(word, static_cast<std::size_t>(lexer.at - word));
     const bool ends = is_foreign_end(text);
+    lexer.beside += 4; // while directives are paired
     add(lexer, TokenKind::directive, from, lexer.words.intern(ends ? "end" : text));
     if (ends) add_invalid(lexer, from, fmt::format("there is no directive `#{}`: `#end` closes all of them", text));
 }
@@ -414,8 +425,9 @@ void lex_all(Lexer& lexer) {
         lexer.at += 3;
     while (lexer.at < lexer.end) {
         lex_token(lexer);
-        if (static_cast<std::int64_t>(lexer.tokens.size()) < lexer.most) continue;
-        add_invalid(lexer, lexer.at - 1, fmt::format("the scene's texts need too much memory: they have more than {} tokens", lexer.most));
+        if (static_cast<std::int64_t>(lexer.tokens.size()) + lexer.beside < lexer.most) continue;
+        add_invalid(lexer, lexer.at - 1,
+                    fmt::format("the scene's texts need too much memory: this is their token number {}", lexer.tokens.size()));
         lexer.at = lexer.end;
     }
     add(lexer, TokenKind::end, lexer.at, 0);
@@ -427,23 +439,13 @@ void lex_all(Lexer& lexer) {
 struct Opened {
     std::size_t opener;
     std::size_t last_branch;         // #if, #else, #case ...: it jumps to what comes next
+    std::size_t breakable;           // 1 + the place in the stack of the loop or #switch that a #break here ends; 0: none
     std::vector<std::size_t> breaks; // waiting for the #end
 };
 
 bool is_directive(const StoredToken& token) { return token.kind == static_cast<std::uint32_t>(TokenKind::directive); }
 
 bool takes_break(Keyword name) { return name == "while"_kw || name == "for"_kw || name == "switch"_kw; }
-
-void note_break(const std::vector<StoredToken>& tokens, std::vector<Opened>& stack, std::size_t at) {
-    for (auto open = stack.rbegin(); open != stack.rend(); ++open) {
-        const auto name = static_cast<Keyword>(tokens[open->opener].name.symbol);
-        if (takes_break(name)) {
-            open->breaks.push_back(at);
-            return;
-        }
-        if (name == "macro"_kw) return;
-    }
-}
 
 void pair_directives(std::vector<StoredToken>& tokens, std::vector<std::string>& strings) {
     std::vector<Opened> stack;
@@ -452,9 +454,10 @@ void pair_directives(std::vector<StoredToken>& tokens, std::vector<std::string>&
         const auto name = static_cast<Keyword>(tokens[i].name.symbol);
         const auto index = static_cast<std::uint32_t>(i);
         if (is_opener(name)) {
-            stack.push_back({i, i, {}});
+            const std::size_t around = stack.empty() || name == "macro"_kw ? 0 : stack.back().breakable;
+            stack.push_back({i, i, takes_break(name) ? stack.size() + 1 : around, {}});
         } else if (name == "break"_kw) {
-            note_break(tokens, stack, i);
+            if (!stack.empty() && stack.back().breakable > 0) stack[stack.back().breakable - 1].breaks.push_back(i);
         } else if (stack.empty()) {
             continue;
         } else if (name == "else"_kw || name == "elseif"_kw || name == "case"_kw || name == "range"_kw) {
@@ -468,13 +471,20 @@ void pair_directives(std::vector<StoredToken>& tokens, std::vector<std::string>&
             stack.pop_back();
         }
     }
+    // Recovery may pass over the first one, so that all of them are marked.
+    std::vector<std::pair<Symbol, Symbol>> messages; // by word
     for (const Opened& open : stack) {
         StoredToken& opener = tokens[open.opener];
-        strings.push_back("`#" + std::string(keyword_text(static_cast<Keyword>(opener.name.symbol))) +
-                          "` opened here is never closed by `#end`");
+        const Symbol word = opener.name.symbol;
+        if (std::none_of(messages.begin(), messages.end(), [&](const auto& known) { return known.first == word; })) {
+            strings.push_back("`#" + std::string(keyword_text(static_cast<Keyword>(word))) +
+                              "` opened here is never closed by `#end`");
+            messages.emplace_back(word, static_cast<Symbol>(strings.size() - 1));
+        }
         opener.kind = static_cast<std::uint32_t>(TokenKind::invalid) & 15;
         opener.name.jump = 0; // nothing behind it can be trusted
-        opener.name.symbol = static_cast<Symbol>(strings.size() - 1);
+        for (const auto& [known, text] : messages)
+            if (known == word) opener.name.symbol = text;
     }
 }
 

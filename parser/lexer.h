@@ -31,8 +31,8 @@ struct Words {
 inline constexpr std::uint32_t no_jump = ~std::uint32_t{0};
 bool is_opener(Keyword directive); // needs an #end
 
-// The tokens of a text, or of its bytes from `begin` to `end`, closed by an `end` token; at most `most`, then an
-// `invalid` one says so and ends them. Strings go to `strings`, without quotes and with escapes undone. What
+// The tokens of a text, or of its bytes from `begin` to `end`, closed by an `end` token; those that
+// the memory of `most` tokens holds, then an `invalid` one says so and ends them. Strings go to `strings`, without quotes and with escapes undone. What
 // cannot be read becomes an `invalid` token, an error only if it is reached. `keep_numbers`: lists of numbers may
 // become one `numbers` token.
 struct LexRange {

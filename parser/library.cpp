@@ -264,6 +264,7 @@ void write_files(const Expander& in) {
 }
 
 bool file_exists(Parser& p, const std::string& name) {
+    charge_work(p, peek(p), 1000); // as #include
     if (p.in.written.contains(name)) return true;
     for (const EmbeddedFile& file : embedded_files())
         if (file.name == name) return true;

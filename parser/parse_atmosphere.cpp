@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // background, sky_sphere, fog and rainbow.
 #include "parser/blocks.h"
+#include "parser/content.h"
 
 #include <limits>
 
@@ -109,6 +110,7 @@ ColorFT parse_background(Parser& p) {
 }
 
 SkySphere parse_sky_sphere(Parser& p) {
+    const Token opener = peek(p);
     SkySphere sky;
     block(p, "sky_sphere", [&] {
         if (const auto* declared = accept_declared<SkySphere>(p))
@@ -122,6 +124,7 @@ SkySphere parse_sky_sphere(Parser& p) {
         else
             unexpected(p, "sky_sphere", {"pigment"_kw, "emission"_kw, "rotate"_kw, "scale"_kw, "translate"_kw});
     });
+    check_weight(p, opener, weight_of(sky));
     return sky;
 }
 
@@ -135,7 +138,7 @@ Fog parse_fog(Parser& p) {
         else if (parse_fog_word(p, fog))
             accept_comma(p);
         else if (at_color(p))
-            fog.color = parse_color(p);
+            fog.color = parse_color(p), accept_comma(p);
         else
             unexpected(p, "fog",
                        {"fog_type"_kw, "distance"_kw, "color"_kw, "fog_alt"_kw, "fog_offset"_kw, "up"_kw,

@@ -55,7 +55,10 @@ FieldProgram parse_field(Parser& p, std::string_view what, double otherwise) {
     const Token word = peek(p);
     if (!at(p, "function"_kw)) fail(p, word, fmt::format("`{}` needs a `function {{ ... }}` first", what));
     const auto function = parse_function(p);
-    if (function->unsupported.empty()) return field_program(function);
+    if (function->unsupported.empty()) {
+        charge_costly(p, word, *function);
+        return field_program(function);
+    }
     warn_unsupported(p, word, fmt::format("{} of {}", what, function->unsupported), "it is left out");
     FieldProgram constant;
     constant.steps.push_back({FieldOp::constant, 0, 0, 0, 0, otherwise});
@@ -166,6 +169,7 @@ void parse_height_function(Parser& p, HeightFieldData& data) {
            sizeof(float) * static_cast<std::size_t>(data.width) * static_cast<std::size_t>(data.height));
     const auto function = parse_function_body(p, word);
     if (function->unsupported.empty()) {
+        charge_calls(p, word, *function, double(data.width) * data.height);
         data.function = [field = field_program(function)](Vec3 at) {
             FieldScratch scratch;
             return field_value(field, at, scratch);

@@ -82,7 +82,8 @@ double parse_strength(Parser& p, std::string_view what, bool& albedo) {
 
 void parse_diffuse(Parser& p, Finish& finish, bool& albedo) {
     finish.diffuse = parse_strength(p, "`diffuse`", albedo);
-    if (accept(p, ',') || at_number(p)) finish.diffuse_back = parse_not_negative(p, "`diffuse` of the back");
+    accept_comma(p);
+    if (at_number(p)) finish.diffuse_back = parse_not_negative(p, "`diffuse` of the back");
 }
 
 Iridescence parse_irid(Parser& p, const Iridescence& start) {

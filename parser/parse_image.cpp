@@ -34,6 +34,7 @@ Image<glm::vec4> parse_function_image(Parser& p) {
         return image;
     }
     if (function->parameters > 3) fail(p, word, "the function of a picture has at most three parameters");
+    charge_calls(p, word, *function, double(width) * height);
     const auto parameters = static_cast<std::size_t>(function->parameters);
     for (int j = 0; j < height; ++j)
         for (int i = 0; i < width; ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lights: POV-Ray's, and emitters that have an area.
 #include "parser/blocks.h"
+#include "parser/content.h"
 
 #include <cmath>
 
@@ -202,6 +203,9 @@ LightSource parse_light_source(Parser& p) {
     if (light.emitter && light.area) fail(p, opener, "an emitter has its own area: `area_light` does not go with it");
     if (light.parallel && light.point_at == light.position)
         fail(p, opener, "`point_at` of a parallel light must differ from its position");
+    const Weight weight = weight_of(light);
+    check_weight(p, opener, weight);
+    charge(p, opener, weight.bytes);
     return light;
 }
 

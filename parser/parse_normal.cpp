@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // normal: patterns that turn the shading normal.
 #include "parser/blocks.h"
+#include "parser/content.h"
 
 #include <algorithm>
 
@@ -70,6 +71,7 @@ void parse_normal_item(Parser& p, Normal& normal) {
 } // namespace
 
 Normal parse_normal(Parser& p, const Normal& start) {
+    const Token opener = peek(p);
     Normal normal = start;
     bool uv_mapping = false;
     block(p, "normal", [&] {
@@ -79,6 +81,7 @@ Normal parse_normal(Parser& p, const Normal& start) {
             parse_normal_item(p, normal);
     });
     normal.pattern.uv_mapping |= uv_mapping;
+    check_weight(p, opener, weight_of(normal));
     return normal;
 }
 

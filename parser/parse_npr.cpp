@@ -56,8 +56,7 @@ Seed parse_seed(Parser& p) {
 RbfKernel parse_kernel(Parser& p) {
     if (accept(p, "biharmonic"_kw) || accept(p, "linear"_kw)) return RbfKernel::biharmonic;
     if (accept(p, "triharmonic"_kw)) return RbfKernel::triharmonic;
-    if (accept(p, "gaussian"_kw)) return RbfKernel::gaussian;
-    unexpected(p, "kernel", {"biharmonic"_kw, "triharmonic"_kw, "gaussian"_kw, "linear"_kw});
+    unexpected(p, "kernel", {"biharmonic"_kw, "triharmonic"_kw, "linear"_kw});
 }
 
 void parse_rbf(Parser& p, PaintWord& word) {
@@ -150,8 +149,10 @@ void parse_interpolation(Parser& p, PaintWord& word) {
                 unexpected(p, "fill", {"nearest"_kw, "random"_kw});
             const Fill fill = accept(p, "random"_kw) ? Fill::random : (next(p), Fill::nearest);
             word.said.emplace_back([fill](PaintStyle& style) { style.fill = fill; });
+        } else if (accept(p, "folds"_kw)) {
+            word.said.emplace_back([folds = parse_optional_bool(p)](PaintStyle& style) { style.folds = folds; });
         } else
-            unexpected(p, "interpolation", {"radius"_kw, "fill"_kw});
+            unexpected(p, "interpolation", {"radius"_kw, "fill"_kw, "folds"_kw});
     });
 }
 

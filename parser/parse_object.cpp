@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Object statements: the word, the shape's own items, then modifiers in any order.
 #include "parser/blocks.h"
+#include "parser/content.h"
 #include "parser/suggest.h"
 
 #include <algorithm>
@@ -170,11 +171,10 @@ Mesh* mesh_from_file(Object& object) {
     return mesh && !mesh->file.empty() ? mesh : nullptr;
 }
 
-std::size_t children_within(const Object& object) {
-    std::size_t count = 0;
-    for (const auto* parts : {&object.children, &object.clips, &object.bounds})
-        for (const Object& part : *parts) count += 1 + children_within(part);
-    return count;
+// Before a copy of it is made.
+void charge_copy(Parser& p, const Token& at, const Weight& weight) {
+    check_weight(p, at, weight);
+    charge(p, at, weight.bytes);
 }
 
 // `clipped_by { ... }` or `bounded_by { ... }`: objects, then transforms of all of them; or the other's word,
@@ -191,7 +191,7 @@ void parse_limit(Parser& p, std::string_view what, Keyword other_word, std::vect
         else if (auto object = parse_object(p))
             said.push_back(std::move(*object));
         else if (const auto* declared = accept_declared<Object>(p))
-            charge(p, word, (1 + children_within(*declared)) * sizeof(Object)), said.push_back(*declared);
+            charge_copy(p, word, weight_of(*declared)), said.push_back(*declared);
         else
             unexpected(p, what, {other_word});
     });
@@ -293,7 +293,7 @@ bool at_declared_object(Parser& p, Object& object) {
     const Token name = peek(p);
     const auto* declared = accept_declared<Object>(p);
     if (!declared) return false;
-    charge(p, name, children_within(*declared) * sizeof(Object)); // before the copy is made
+    charge_copy(p, name, weight_of_parts(*declared)); // itself counts at its end
     object = *declared;
     object.name = token_text(p, name, false);
     return true;
@@ -353,10 +353,11 @@ bool parse_group_child(Parser& p, Object& group) {
     if (accept(p, "light_source"_kw))
         group.lights.push_back(parse_light_source(p));
     else if (const auto* light = accept_declared<LightSource>(p))
-        group.lights.push_back(*light);
+        charge_copy(p, word, weight_of(*light)), group.lights.push_back(*light);
     else if (auto child = parse_object(p))
         group.children.push_back(std::move(*child));
     else if (const auto* declared = accept_declared<Object>(p)) {
+        charge_copy(p, word, weight_of(*declared));
         group.children.push_back(*declared);
         group.children.back().name = token_text(p, word, false);
     } else
@@ -412,7 +413,8 @@ std::optional<Object> parse_object(Parser& p) {
     else
         return std::nullopt;
     object.said_at = source_ref(p, word);
-    charge(p, word, sizeof(Object));
+    constexpr std::size_t room = sizeof(Object) * 3 / 2; // with what lists of objects keep free
+    charge(p, word, room + (object.texture ? weight_of(*object.texture).bytes : 0));
     return object;
 }
 

@@ -225,7 +225,8 @@ bool parse_special_pattern(Parser& p, Pattern& pattern) {
         const auto function = parse_function(p);
         if (!function->unsupported.empty())
             warn_unsupported(p, word, function->unsupported, "the pattern is 0");
-        set_kind(pattern, FunctionPattern{function->unsupported.empty() ? field_of(function) : nullptr});
+        charge_costly(p, word, *function);
+        set_kind(pattern, FunctionPattern{function->unsupported.empty() ? ScalarField(FunctionField{function}) : nullptr});
         return true;
     }
     default:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pigments: patterns and the colours they pick.
 #include "parser/blocks.h"
+#include "parser/content.h"
 #include "parser/expression.h"
 
 #include <algorithm>
@@ -92,6 +93,7 @@ void parse_pigment_item(Parser& p, Pigment& pigment) {
 }
 
 Pigment parse_pigment(Parser& p, const Pigment& start) {
+    const Token opener = peek(p);
     Pigment pigment = start;
     bool uv_mapping = false; // at the end: transforms within the block still count
     block(p, "pigment", [&] {
@@ -101,6 +103,7 @@ Pigment parse_pigment(Parser& p, const Pigment& start) {
             parse_pigment_item(p, pigment);
     });
     pigment.pattern.uv_mapping |= uv_mapping;
+    check_weight(p, opener, weight_of(pigment));
     return pigment;
 }
 

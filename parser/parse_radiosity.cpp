@@ -12,7 +12,8 @@ namespace {
 // A number, and a second one behind it where the word takes one.
 double parse_number_pair(Parser& p) {
     const double first = parse_float(p);
-    if (accept(p, ',') || at_expression(p)) parse_float(p);
+    accept_comma(p);
+    if (at_expression(p)) parse_float(p);
     return first;
 }
 

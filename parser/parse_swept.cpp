@@ -30,7 +30,8 @@ template <class Point, class F>
 std::vector<Point> parse_points(Parser& p, std::string_view what, F parse_point) {
     const Token at = peek(p);
     const int count = parse_int(p, 1, most_points, what);
-    charge(p, at, static_cast<std::size_t>(count) * sizeof(Point));
+    constexpr std::size_t curve = 256, segment = 96; // what is made of them
+    charge(p, at, curve + static_cast<std::size_t>(count) * (sizeof(Point) + segment));
     std::vector<Point> points;
     points.reserve(static_cast<std::size_t>(count));
     accept_comma(p);
@@ -167,7 +168,9 @@ Shape parse_text(Parser& p) {
     accept_comma(p);
     Vec3 offset(0);
     if (at_expression(p)) offset = parse_vector(p);
-    charge(p, said, text.size() * sizeof(PlacedGlyph));
+    constexpr std::size_t block = 1000, glyph = 200, work = 400; // work: in tokens, of a letter
+    charge(p, said, block + text.size() * (sizeof(PlacedGlyph) + glyph));
+    charge_work(p, said, static_cast<std::int64_t>(text.size() * work));
     try {
         return make_text(set_text(path, text, Vec2(offset)), thickness);
     } catch (const std::invalid_argument& wrong) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // texture and material: pigment, normal, finish and interior under one name; layers and patterns of textures.
 #include "parser/blocks.h"
+#include "parser/content.h"
 
 #include <algorithm>
 
@@ -100,6 +101,7 @@ void parse_texture_item(Parser& p, Texture& texture) {
 }
 
 Texture parse_texture(Parser& p, const Texture& start) {
+    const Token opener = peek(p);
     Texture texture = start;
     bool uv_mapping = false;
     block(p, "texture", [&] {
@@ -110,6 +112,7 @@ Texture parse_texture(Parser& p, const Texture& start) {
     });
     if (texture.textures.empty()) texture.pattern = {}; // a list without entries shows #default's texture
     if (uv_mapping) map_by_uv(texture);
+    check_weight(p, opener, weight_of(texture));
     return texture;
 }
 
@@ -134,6 +137,7 @@ void add_layer(Parser& p, Texture& below, const Texture& texture, bool layered) 
     }
     below.upper.push_back(texture);
     below.upper.insert(below.upper.end(), texture.upper.begin(), texture.upper.end());
+    if (!texture.upper.empty()) check_weight(p, peek(p), weight_of(below));
 }
 
 SaidMaterial parse_material(Parser& p) {

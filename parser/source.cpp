@@ -52,9 +52,12 @@ std::uint32_t Sources::offset(std::uint32_t source, LineColumn place) const {
 
 std::string_view Sources::line_text(std::uint32_t source, int line) const {
     const SourceText& file = files[source];
-    const std::size_t begin = lines_of(file)[static_cast<std::size_t>(line - 1)];
-    const std::string_view text(file.text);
-    return text.substr(begin, text.find_first_of("\r\n", begin) - begin);
+    const auto& starts = lines_of(file);
+    const auto index = static_cast<std::size_t>(line - 1);
+    const std::size_t begin = starts[index];
+    std::size_t end = index + 1 < starts.size() ? starts[index + 1] : file.text.size();
+    while (end > begin && (file.text[end - 1] == '\n' || file.text[end - 1] == '\r')) --end;
+    return std::string_view(file.text).substr(begin, end - begin);
 }
 
 } // namespace pnr

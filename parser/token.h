@@ -19,7 +19,7 @@ enum class TokenKind : std::uint8_t {
     directive,   // `#name`; symbol is the name's keyword, value the token to jump to (lexer.h). Never
                  // leaves the expander.
     punctuation, // symbol holds the character, or two of them (first | second << 8) for <= >= !=
-    invalid, // cannot be read; symbol: index of the message in the string table; jump 0: reading ends here.
+    invalid, // cannot be read; symbol: index of the message in the string table; jump 0: reading ends here; 1: a warning.
              // Never leaves the expander.
     numbers, // a long list of plain numbers and vectors, not cut into tokens yet (number_list.h). Never
              // leaves the expander.

@@ -42,7 +42,7 @@ TEST(Ilic, OfAConstantWithoutNoiseIsThatConstant) {
         const Color constant(0.7f, 0.3f, 0.1f);
         const Layer layer = convolve(informed(
                                          g, [&](int, int) { return constant; }, diagonal),
-                                     random_sources(g, 0.2, 1), world, g, 1);
+                                     random_seats(g, 0.2, 1), world, g, 1);
         for (int y = 0; y < 128; ++y) {
             for (int x = 0; x < 128; ++x) {
                 const Color expected = disc(x, y) ? constant : Color(0);
@@ -64,7 +64,7 @@ TEST(Ilic, NoiseHasTheStandardDeviationAskedFor) {
         const Color grey(0.3f);
         const Layer layer = convolve(informed(
                                          g, [&](int, int) { return grey; }, diagonal),
-                                     random_sources(g, 0.3, 2), world, g, 1);
+                                     random_seats(g, 0.3, 2), world, g, 1);
         double sum = 0, square = 0, count = 0;
         for (int y = 10; y < 500; ++y) {
             for (int x = 10; x < 500; ++x) {
@@ -92,7 +92,7 @@ TEST(Ilic, SmearsAlongTheAxisOnly) {
     const auto spot = [](int x, int y) { return x == 250 && y == 260 ? Color(1) : Color(0.1f); };
     for (const Vec2f direction : {Vec2f(1, 0), Vec2f(0, 1)}) {
         const Layer layer = convolve(informed(g, spot, [&](int, int) { return direction; }),
-                                     SparseMap(512, 512), world, g, 1);
+                                     Seats{}, world, g, 1);
         for (int y = 200; y < 320; ++y) {
             for (int x = 200; x < 320; ++x) {
                 const bool lit = layer.color.at(x, y).x > 0.1005f;
@@ -118,12 +118,36 @@ TEST(Ilic, PathsStayInsideTheirRegion) {
     const GBuffer g = gbuffer_of(128, 512, [](int x, int y) { return y < 8 ? 0 : x < 64 ? 1 : 2; });
     const auto color = [](int x, int) { return x < 64 ? Color(0.8f, 0.1f, 0.1f) : Color(0.1f, 0.8f, 0.1f); };
     const Layer layer = convolve(informed(g, color, [](int, int) { return Vec2f(1, 0); }),
-                                 random_sources(g, 0.2, 3), world, g, 1);
+                                 random_seats(g, 0.2, 3), world, g, 1);
     for (int y = 8; y < 512; ++y) {
         for (int x = 0; x < 128; ++x) {
             const Color c = layer.color.at(x, y);
             EXPECT_EQ(c.x > c.y, x < 64) << x << ' ' << y;
         }
+    }
+}
+
+TEST(Ilic, PathsStopAtAFoldOfTheirObject) {
+    // One object whose right half lies far behind its left one; strokes run straight across.
+    PaintStyle style;
+    style.length = 60;
+    style.noise_lightness = style.noise_chroma = 0;
+    for (const bool deep : {true, false}) {
+        GBuffer g = gbuffer_of(128, 512, [](int, int y) { return y < 8 ? 0 : 1; });
+        if (deep)
+            for (int y = 8; y < 512; ++y)
+                for (int x = 64; x < 128; ++x) g.seen.at(x, y).position.z = 100;
+        const auto color = [](int x, int) { return x < 64 ? Color(0.8f, 0.1f, 0.1f) : Color(0.1f, 0.8f, 0.1f); };
+        const Layer layer = convolve(informed(g, color, [](int, int) { return Vec2f(1, 0); }), Seats{},
+                                     world_with_objects(1, style), g, 1);
+        int crossed = 0;
+        for (int y = 8; y < 512; ++y)
+            for (int x = 0; x < 128; ++x)
+                if ((layer.color.at(x, y).x > layer.color.at(x, y).y) != (x < 64)) ++crossed;
+        if (deep)
+            EXPECT_EQ(crossed, 0);
+        else
+            EXPECT_GT(crossed, 1000);
     }
 }
 
@@ -138,7 +162,7 @@ TEST(Ilic, BorderPixelsTakeTheNearestPaintedColour) {
     g.seen.at(29, 20).weight = Color(0.5f, 0.5f, 0.2f);
     const Layer layer = convolve(informed(
                                      g, [](int, int) { return Color(0.4f); }, diagonal),
-                                 SparseMap(64, 64), world, g, 1);
+                                 Seats{}, world, g, 1);
     EXPECT_NEAR(layer.color.at(30, 20).x, 0.25f * 0.5f * 0.5f * 0.4f, 1e-5);
     EXPECT_NEAR(layer.alpha.at(30, 20), 0.25f * 0.5f * 0.4f, 1e-6);
     EXPECT_NEAR(layer.color.at(29, 20).z, 0.75f * 0.5f * 0.2f * 0.4f, 1e-5);
@@ -150,16 +174,16 @@ TEST(Ilic, SameBitsForAnyNumberOfThreads) {
     set_style(style, "oil");
     const World world = world_with_objects(1, style);
     const GBuffer g = gbuffer_of(128, 128, disc);
-    const SparseMap sparse = random_sources(g, 0.1, 6);
-    const InformativeMap map = make_informative_map(sparse, world, g, 1);
+    const Seats seats = random_seats(g, 0.1, 6);
+    const InformativeMap map = make_informative_map(random_sources(g, 0.1, 6), world, g, 1);
     Layer one, two;
     {
         const ThreadLimit limit(1);
-        one = convolve(map, sparse, world, g, 1);
+        one = convolve(map, seats, world, g, 1);
     }
     {
         const ThreadLimit limit(2);
-        two = convolve(map, sparse, world, g, 1);
+        two = convolve(map, seats, world, g, 1);
     }
     for (std::size_t i = 0; i < one.color.pixels.size(); ++i) {
         ASSERT_EQ(one.color.pixels[i], two.color.pixels[i]);

@@ -150,5 +150,32 @@ TEST(InformativeMap, RandomFillIsTheSameForAnyNumberOfThreads) {
     }
 }
 
+TEST(InformativeMap, WithFoldsOnNothingComesOverAFold) {
+    // The right half lies far behind the left one and has other colours.
+    for (const bool folds : {true, false}) {
+        PaintStyle style;
+        style.radius = 6.0 * 512 / 80;
+        style.folds = folds;
+        GBuffer g = gbuffer_of(96, 80, [](int, int) { return 1; });
+        for (int y = 0; y < 80; ++y)
+            for (int x = 48; x < 96; ++x) g.seen.at(x, y).position.z = 50;
+        SparseMap sparse = random_sources(g, 0.1, 8);
+        for (int y = 0; y < 80; ++y)
+            for (int x = 0; x < 96; ++x) sparse.at(x, y).radiance = x < 48 ? Color(1, 0, 0) : Color(0, 1, 0);
+        const InformativeMap map = make_informative_map(sparse, world_with_objects(1, style), g, 1);
+        int mixed = 0;
+        for (int y = 0; y < 80; ++y)
+            for (int x = 0; x < 96; ++x) {
+                const Informed& pixel = map.at(x, y);
+                if (pixel.kind != PixelKind::interpolated) continue;
+                if ((x < 48 ? pixel.radiance.y : pixel.radiance.x) > 0) ++mixed;
+            }
+        if (folds)
+            EXPECT_EQ(mixed, 0);
+        else
+            EXPECT_GT(mixed, 100);
+    }
+}
+
 } // namespace
 } // namespace pnr

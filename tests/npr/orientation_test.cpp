@@ -37,7 +37,7 @@ void expect_tangent(Vec3 t, Vec3 normal) {
 }
 
 TEST(Orientation, FieldAtEverySeedIsTheSeedsAxis) {
-    for (const RbfKernel kernel : {RbfKernel::biharmonic, RbfKernel::triharmonic, RbfKernel::gaussian}) {
+    for (const RbfKernel kernel : {RbfKernel::biharmonic, RbfKernel::triharmonic}) {
         for (const int count : {2, 3, 4, 12, 300}) {
             PaintStyle style;
             style.kernel = kernel;
@@ -117,7 +117,7 @@ TEST(Orientation, NoSeedSetGivesNaN) {
     for (int round = 0; round < 400; ++round) {
         Rng rng = make_rng(11, Pass::test, static_cast<std::uint64_t>(round));
         PaintStyle style;
-        style.kernel = static_cast<RbfKernel>(round % 3);
+        style.kernel = static_cast<RbfKernel>(round % 2);
         style.smooth = round % 5 == 0 ? rng.uniform() : 0;
         style.neighbours = round % 4 == 0 ? 1 + round % 3 : 0;
         style.vectors = round % 7 == 0;

@@ -39,6 +39,9 @@ GBuffer gbuffer_of(int width, int height, ObjectAt&& object_at) {
             seen.object = object;
             seen.npr = true;
             seen.z = 1;
+            seen.position = Vec3f(Vec2f(Vec2(x + 0.5, y + 0.5)), 0); // flat, facing the viewer, a unit a pixel
+            seen.normal = {0, 0, -1};
+            seen.dpdx = {1, 0, 0}, seen.dpdy = {0, 1, 0};
             g.coverage.at(x, y) = 1;
         }
     }
@@ -65,6 +68,19 @@ inline SparseMap random_sources(const GBuffer& g, double share, std::uint64_t se
         }
     }
     return sparse;
+}
+
+// Seats at such sources.
+inline Seats random_seats(const GBuffer& g, double share, std::uint64_t seed) {
+    Seats seats;
+    for (const SourcePixel& s : random_sources(g, share, seed).pixels) {
+        if (s.photon < 0) continue;
+        if (seats.photons.size() <= s.object) seats.photons.resize(s.object + 1);
+        std::vector<Vec3f>& photons = seats.photons[s.object];
+        seats.seen.push_back({s.at, Vec3f(s.at, 0), static_cast<std::uint32_t>(photons.size()), s.object, s.via});
+        photons.emplace_back(s.at, 0);
+    }
+    return seats;
 }
 
 } // namespace pnr::test

@@ -121,6 +121,154 @@ TEST(Limits, Bombs) {
     for (const auto& [name, text] : bombs) EXPECT_NE(first_error(text, options), "") << name;
 }
 
+// What is put into itself again and again: deep enough, any recursion over it would leave the stack.
+TEST(Limits, ValuesInsideThemselves) {
+    const std::pair<std::string, std::string> values[] = {
+        {"#declare T = pigment { rgb 1 }", "#declare T = pigment { checker pigment { T } pigment { rgb 1 } }"},
+        {"#declare T = pigment { rgb 1 }", "#declare T = pigment { pigment_pattern { T } color_map { [0 rgb 0] [1 rgb 1] } }"},
+        {"#declare T = pigment { rgb 1 }", "#declare F = function { pigment { T } } #declare T = pigment { function { F(x, y, z).x } }"},
+        {"#declare T = normal { bumps 1 }", "#declare T = normal { gradient x normal_map { [0 T] [1 bumps 1] } }"},
+        {"#declare T = texture { pigment { rgb 1 } }", "#declare T = texture { checker texture { T } texture { pigment { rgb 1 } } }"},
+        {"#declare T = texture { pigment { rgb 1 } }", "#declare T = texture { gradient x texture_map { [0 T] [1 pigment { rgb 1 }] } }"},
+        {"#declare T = sphere { 0, 1 }", "#declare T = union { object { T } }"},
+        {"#declare T = sphere { 0, 1 }", "#declare T = difference { object { T } box { 0, 1 } }"},
+        {"#declare T = sphere { 0, 1 }", "#declare T = sphere { 0, 1 clipped_by { object { T } } }"},
+        {"#declare T = sphere { 0, 1 }", "#declare T = union { light_source { 0, rgb 1 looks_like { T } } }"},
+        {"#declare F = function(x) { x };", "#declare F = function(x) { F(x) + 1 };"},
+        {"#declare F = function(x) { x };", "#declare F = function(x) { F(x) };"},
+    };
+    for (const auto& [start, step] : values) {
+        const std::string error = first_error(start + " #for (I, 1, 100000) " + step + " #end");
+        EXPECT_NE(error.find("nested deeper than 400 levels"), std::string::npos) << step << "\n" << error;
+    }
+}
+
+// What holds itself twice doubles.
+TEST(Limits, ValuesThatDouble) {
+    LoadOptions options;
+    options.budgets.bytes = 30'000'000;
+    const std::pair<std::string, std::string> values[] = {
+        {"#declare T = pigment { rgb 1 }", "#declare T = pigment { checker pigment { T } pigment { T } }"},
+        {"#declare T = texture { pigment { rgb 1 } }", "#declare T = texture { gradient x texture_map { [0 T] [1 T] } }"},
+        {"#declare T = texture { pigment { rgbt 0.5 } }", "#declare T = texture { T } texture { T }"},
+        {"#declare T = sphere { 0, 1 }", "#declare T = union { object { T } object { T } }"},
+        {"#declare T = sphere { 0, 1 }", "#declare T = union { light_source { 0, rgb 1 looks_like { T } } object { T } }"},
+    };
+    for (const auto& [start, step] : values) {
+        const std::string error = first_error(start + " #for (I, 1, 60) " + step + " #end", options);
+        EXPECT_NE(error.find("needs more than 30 MB"), std::string::npos) << step << "\n" << error;
+    }
+}
+
+// Texts of one kind of token, each of which takes more memory than its letters.
+TEST(Limits, TextsThatFillTheMemory) {
+    LoadOptions options;
+    options.budgets.bytes = 4'000'000;
+    for (const char* token : {"1 ", ";", "{", "}", "@$", "\"\" ", "#if (1) ", "#end ", "a "}) {
+        const std::string error = first_error(repeated(token, 300'000), options);
+        EXPECT_EQ(error.substr(0, 11), "test.pnr:1:") << token;
+    }
+    EXPECT_NE(first_error(repeated("#declare A = \"\"; ", 60'000), options).find("too much memory"), std::string::npos);
+    EXPECT_EQ(first_error(repeated("#declare A = 1; ", 20'000), options), "");
+}
+
+TEST(Limits, FunctionsThatTakeLong) {
+    const std::string texts[] = {
+        "#declare F = function(x, y) { sum(i, 1, 100000, sin(i * x)) }; height_field { function 4000, 4000 { F(x, y) } }",
+        "isosurface { function { sum(i, 1, 1000000, sin(i * x)) } contained_by { box { -1, 1 } } }",
+        "sphere { 0, 1 pigment { function { sum(i, 1, 1000000, i * x) } } }",
+        "#declare F = function(x) { sum(i, 1, x, sin(i)) }; #while (1) #declare A = F(1e5); #end",
+        "#declare F = function(n) { n }; #for (I, 1, 9) #declare F = function(n) { sum(i, 1, 1000, F(i)) }; #end",
+        "#while (1) #declare A = file_exists(\"nothing\"); #end",
+    };
+    for (const std::string& text : texts) EXPECT_EQ(first_error(text, small()).substr(0, 11), "test.pnr:1:") << text;
+}
+
+// Many breaks in many conditions: each finds its loop at once.
+TEST(Limits, ManyBreaks) {
+    EXPECT_EQ(first_error("#while (1) " + repeated("#if (0) ", 100'000) + repeated("#break ", 100'000) +
+                          repeated("#end ", 100'000) + "#break #end"),
+              "");
+}
+
+// POV-Ray passes over it.
+TEST(Limits, HashesAlone) {
+    EXPECT_EQ(run("camera { location <0, 2, 0># } ### sphere { 0, 1 #} #debug \"read\" #"), "read");
+    EXPECT_EQ(run("###debug \"read\""), "read");
+    const LoadResult result = load_scene_text("camera { location <0, 2, 0># }", "test.pnr", {});
+    ASSERT_FALSE(result.diagnostics.empty());
+    EXPECT_EQ(result.diagnostics[0].message, "a `#` without the name of a directive means nothing");
+}
+
+// A word where a list of numbers was expected is known as one.
+TEST(Limits, WordsInListsOfNumbers) {
+    EXPECT_EQ(first_error("mesh2 { vertex_vectors { e4, <0, 0, 0>, <1, 0, 0>, <0, 1, 0> } face_indices { 1, <0, 1, 2> } }"),
+              "test.pnr:1:26: error: `e4` is not declared");
+}
+
+struct Broken {
+    const char* text;
+    const char* error; // a part of it
+};
+
+TEST(Limits, BrokenTexts) {
+    const Broken texts[] = {
+        {"sphere { 0, 1", "never closed"},
+        {"sphere { 0, 1 } }", "unexpected `}`"},
+        {"#declare S = \"abc", "never closed"},
+        {"/* abc", "never closed"},
+        {"#declare A = 0 / 0;", "division by zero"},
+        {"#declare A = 1e999;", "too large"},
+        {"#declare A = 1e300 * 1e300;", "too large"},
+        {"#declare A = <1, 2, 3, 4, 5, 6>;", "at most 5"},
+        {"#declare A = <1>;", "at least 2"},
+        {"#declare A = array[3] { 1, 2, 3 } #declare B = A[3];", "test.pnr"},
+        {"#declare A = array[3] { 1, 2, 3 } #declare B = A[-1];", "test.pnr"},
+        {"#declare A = array[3] #declare B = A[1];", "test.pnr"},
+        {"mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, 3> } }", "test.pnr"},
+        {"mesh2 { vertex_vectors { 3, 0, x, y } face_indices { 1, <0, 1, -1> } }", "test.pnr"},
+        {"mesh2 { vertex_vectors { 1000000000, 0 } face_indices { 1, <0, 1, 2> } }", "test.pnr"},
+        {"sphere { \"a\", 1 }", "expected a number or vector"},
+        {"sphere { 0, <1, 2, 3> }", "a number is needed"},
+        {"sphere { 0, 1 pigment { Nothing } }", "`Nothing`"},
+        {"#macro M(A) A #end M(", "test.pnr"},
+        {"#while (1)", "never closed"},
+        {"#include \"\"", "test.pnr"},
+        {"#fopen F \"nothing\" read", "test.pnr"},
+        {"#declare F = function(x) { F(x) };", "not declared"},
+    };
+    for (const auto& [text, error] : texts) {
+        const std::string found = first_error(text);
+        EXPECT_NE(found.find(error), std::string::npos) << text << "\n" << found;
+        EXPECT_EQ(found.substr(0, 11), "test.pnr:1:") << text;
+    }
+}
+
+TEST(Limits, NearMissesAreNamed) {
+    const std::pair<const char*, const char*> words[] = {
+        {"sphre { 0, 1 }", "sphere"},
+        {"sphere { 0, 1 pigmnet { rgb 1 } }", "pigment"},
+        {"sphere { 0, 1 finish { ambiant 1 } }", "ambient"},
+        {"sphere { 0, 1 pigment { chekcer rgb 1 rgb 0 } }", "checker"},
+        {"sphere { 0, 1 translat x }", "translate"},
+        {"camera { locaton -z }", "location"},
+        {"light_source { 0, rgb 1 spotligth }", "spotlight"},
+        {"global_settings { asumed_gamma 1 }", "assumed_gamma"},
+        {"#decalre A = 1;", "declare"},
+        {"#if (1) #esle #end", "else"},
+        {"#declare A = vnormalise(x);", "vnormalize"},
+        {"#declare Colour = 1; #declare B = Coluor;", "Colour"},
+        {"sphere { 0, 1 npr { styel oil } }", "style"},
+        {"#include \"colours.inc\"", "colors.inc"},
+    };
+    for (const auto& [text, word] : words) {
+        const LoadResult result = load_scene_text(text, "test.pnr", {});
+        ASSERT_FALSE(result.diagnostics.empty()) << text;
+        const std::string help = result.diagnostics[0].help + result.diagnostics[0].message;
+        EXPECT_NE(help.find(word), std::string::npos) << text << "\n" << help;
+    }
+}
+
 TEST(Limits, TextsOfOtherKinds) {
     using namespace std::string_literals;
     EXPECT_EQ(first_error("\xff\xfes\0p\0h\0"s), "test.pnr:1:1: error: this file is UTF-16: scenes are plain text in UTF-8 or ASCII");

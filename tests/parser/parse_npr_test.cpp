@@ -26,7 +26,7 @@ TEST(ParseNpr, AllItems) {
     const PaintStyle s = style_of(R"(
         seeds { seed { <0, 1, 0>, x } seed { <1, 0, 0>, y weight 2 } rbf { kernel triharmonic smooth 0.1 neighbours 4 } }
         field around <1, 2, 3>, y weight 0.4
-        interpolation { radius 7 fill random }
+        interpolation { radius 7 fill random folds on }
         ilic { length 39 cell 6 noise 0.04, 0.03 edge 12 gaussian 21, 11 step 0.25 size 0.7 }
         tone { contrast 1.2 saturation 1.1 warm 0.05 } relief 0.1, 0.02
         mix 0.75)");
@@ -40,6 +40,7 @@ TEST(ParseNpr, AllItems) {
     EXPECT_EQ(s.field_weight, 0.4);
     EXPECT_EQ(s.radius, 7);
     EXPECT_EQ(s.fill, Fill::random);
+    EXPECT_TRUE(s.folds);
     EXPECT_EQ(s.length, 39);
     EXPECT_EQ(s.cell, 6);
     EXPECT_EQ(s.noise_lightness, 0.04);
@@ -85,6 +86,7 @@ TEST(ParseNpr, PaperModeChangesTheBaseAlone) {
     EXPECT_EQ(field_windows(s), Vec2(15, 7)); // along curvature, too
     EXPECT_EQ(style_of("paper_mode on style ilic").edge, 0);
     EXPECT_EQ(s.fill, Fill::random);
+    EXPECT_TRUE(s.folds);
     EXPECT_EQ(style_of("", "global_settings { npr { paper_mode on } }").length, 20);
     EXPECT_EQ(style_of("paper_mode off", "global_settings { npr { paper_mode on } }").length, 26);
 }

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "cli/converge.h"
+
+#include "npr/color_space.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <stdexcept>
+
+namespace pnr {
+
+namespace {
+
+double mean_of(const Image<Color>& image, const Image<float>& mask) {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < mask.pixels.size(); ++i) {
+        if (mask.pixels[i] <= 0) continue;
+        const Color& c = image.pixels[i];
+        sum += static_cast<double>(c.x) + static_cast<double>(c.y) + static_cast<double>(c.z);
+        count += 3;
+    }
+    return count > 0 ? sum / count : 0;
+}
+
+Color as_displayed(Color c) { return oklab_from_linear(glm::clamp(c, Color(0), Color(1))); }
+
+double seconds_of_cpu() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+// Relative roots of the mean squares of noise and bias, against the picture's own light, from each pixel's
+// own batches: their squares are right in the mean, so the sum over all pixels needs no smoothing (which
+// pictures of the error need, and which carries the noise at a lamp's rim to the dark pixels beside it). What
+// noise alone makes of the slope over the batches' widths is taken off the bias.
+void add_estimate(const Rendering& r, Snapshot& snapshot) {
+    const ProgressiveSum& sum = r.progressive;
+    const double n = sum.batches, mean_shrink = sum.shrinks / n;
+    const double spread = sum.shrinks2 - sum.shrinks * mean_shrink;
+    if (sum.batches < 2) return;
+    const double floor = 0.1 * mean_of(snapshot.photoreal, snapshot.mask);
+    double noise2 = 0, bias2 = 0, count = 0;
+    for (std::size_t i = 0; i < snapshot.mask.pixels.size(); ++i) {
+        const double light = static_cast<double>(luminance(snapshot.photoreal.pixels[i]));
+        const double scale = light * light + floor * floor;
+        if (snapshot.mask.pixels[i] <= 0 || !(scale > 0)) continue;
+        ++count;
+        const double own2 = static_cast<double>(sum.batch_squares.pixels[i]) / (n * (n - 1));
+        noise2 += own2 / scale;
+        if (sum.batches < 3 || spread < 1e-9) continue;
+        const double along = static_cast<double>(sum.batch_slope.pixels[i]) -
+                             sum.shrinks * static_cast<double>(sum.batch_mean.pixels[i]);
+        const double bias = along / spread * mean_shrink;
+        bias2 += (bias * bias - own2 * n / spread * mean_shrink * mean_shrink) / scale;
+    }
+    if (count == 0) return;
+    snapshot.noise = std::sqrt(noise2 / count);
+    snapshot.bias = std::sqrt(std::max(0.0, bias2 / count));
+}
+
+} // namespace
+
+PictureError picture_error(const Image<Color>& x, const Reference& reference, const Image<float>& mask) {
+    const auto fits = [&](const auto& image) { return image.width == x.width && image.height == x.height; };
+    if (!fits(reference.a) || !fits(reference.b) || !fits(mask))
+        throw std::invalid_argument("the reference has another size than the picture");
+    Image<Color> truth(x.width, x.height);
+    for (std::size_t i = 0; i < truth.pixels.size(); ++i)
+        truth.pixels[i] = 0.5f * (reference.a.pixels[i] + reference.b.pixels[i]);
+    const double mean = mean_of(truth, mask), floor = 0.1 * mean;
+    double squares = 0, relative = 0, perceived = 0, pixels = 0;
+    std::vector<double> ratios;
+    for (std::size_t i = 0; i < x.pixels.size(); ++i) {
+        if (mask.pixels[i] <= 0) continue;
+        ++pixels;
+        perceived +=
+            static_cast<double>(glm::distance(as_displayed(x.pixels[i]), as_displayed(truth.pixels[i])));
+        for (int k = 0; k < 3; ++k) {
+            const auto value = [&](const Image<Color>& image) {
+                return static_cast<double>(image.pixels[i][k]);
+            };
+            const double square = (value(x) - value(reference.a)) * (value(x) - value(reference.b));
+            const double r = value(truth);
+            squares += square;
+            if (const double scale = r * r + floor * floor; scale > 0) relative += square / scale;
+            ratios.push_back(r + floor > 0 ? std::abs(value(x) - r) / (r + floor) : 0);
+        }
+    }
+    if (pixels == 0) throw std::invalid_argument("no pixel is photoreal: there is nothing to compare");
+    PictureError error;
+    error.rmse = std::sqrt(std::max(0.0, squares / (3 * pixels)));
+    error.relative_rmse = std::sqrt(std::max(0.0, relative / (3 * pixels)));
+    error.mean_ratio = mean > 0 ? mean_of(x, mask) / mean : 1;
+    const auto rank =
+        ratios.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(ratios.size() - 1));
+    std::nth_element(ratios.begin(), rank, ratios.end());
+    error.relative_99 = *rank;
+    error.perceived = 100 * perceived / pixels;
+    return error;
+}
+
+Image<float> photoreal_mask(const Rendering& r) {
+    Image<float> mask(r.picture.color.width, r.picture.color.height, 0.0f);
+    for (int y = r.window.y0; y < r.window.y1; ++y)
+        for (int x = r.window.x0; x < r.window.x1; ++x) {
+            const bool painted = r.gbuffer.coverage.at(x, y) > 0 ||
+                                 (!r.paint.layer.alpha.empty() && r.paint.layer.alpha.at(x, y) > 0);
+            mask.at(x, y) = painted ? 0.0f : 1.0f;
+        }
+    return mask;
+}
+
+std::vector<Snapshot> run_budgets(const Scene& scene, const Settings& settings, const Budgets& limits,
+                                  const std::vector<double>& budgets, ProgressMode progress) {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    const double cpu_begin = seconds_of_cpu();
+    std::vector<Snapshot> snapshots;
+    Passes passes(progress, false);
+    Wishes wishes;
+    wishes.budgets = limits;
+    wishes.refinement = Refinement{};
+    std::size_t next = 0;
+    wishes.after_pass = [&](Rendering& r) {
+        const double wall = std::chrono::duration<double>(Clock::now() - begin).count();
+        if (wall < budgets[next]) return true;
+        complete_picture(r);
+        Snapshot s;
+        while (next < budgets.size() && wall >= budgets[next]) s.budget_s = budgets[next++];
+        s.wall_s = wall;
+        s.cpu_s = seconds_of_cpu() - cpu_begin;
+        s.passes = r.passes_done;
+        s.picture = r.picture.color;
+        s.photoreal = r.rendered.layer.color;
+        s.mask = photoreal_mask(r);
+        add_estimate(r, s);
+        s.times = passes.times();
+        snapshots.push_back(std::move(s));
+        return next < budgets.size();
+    };
+    KeptPhotons kept;
+    render_scene(scene, settings, wishes, kept, 0, passes);
+    return snapshots;
+}
+
+std::optional<double> log_slope(const std::vector<std::pair<double, double>>& points) {
+    double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+    for (const auto& [px, py] : points) {
+        if (!(px > 0 && py > 0)) continue;
+        const double x = std::log(px), y = std::log(py);
+        ++n, sx += x, sy += y, sxx += x * x, sxy += x * y;
+    }
+    const double spread = n * sxx - sx * sx;
+    if (n < 2 || !(spread > 1e-12 * n * n)) return {};
+    return (n * sxy - sx * sy) / spread;
+}
+
+} // namespace pnr

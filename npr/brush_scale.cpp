@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "npr/brush_scale.h"
+
+namespace pnr {
+
+namespace {
+
+constexpr float give = 1.5f;
+
+// Of a region seen directly in perspective: the median angle of a pixel times the distance to the photons'
+// middle, which stays when the view goes round it. Else the median of what its pixels span.
+bool has_middle(const GBuffer& gbuffer, const Seats& seats, const Region& region) {
+    return region.via == 0 && gbuffer.view.camera.projection == Projection::perspective &&
+           region.object < seats.photons.size() && !seats.photons[region.object].empty();
+}
+
+float distance_to_middle(const GBuffer& gbuffer, const std::vector<Vec3f>& photons) {
+    Vec3 low(photons.front()), high = low;
+    for (const Vec3f& p : photons) low = glm::min(low, Vec3(p)), high = glm::max(high, Vec3(p));
+    return static_cast<float>(glm::distance(gbuffer.view.camera.location, 0.5 * (low + high)));
+}
+
+} // namespace
+
+BrushScale find_brush_scale(const GBuffer& gbuffer, const Seats& seats, const Region& region,
+                            const Image<std::uint8_t>& mask) {
+    const bool middle = has_middle(gbuffer, seats, region);
+    std::vector<float> widths;
+    const PixelRect box = region.box;
+    for (int y = box.y0; y < box.y1; ++y) {
+        for (int x = box.x0; x < box.x1; ++x) {
+            if (mask.at(x - box.x0, y - box.y0) == 0) continue;
+            const Seen& seen = gbuffer.seen.at(x, y);
+            const float width = footprint_of(seen).least / (middle ? seen.z : 1);
+            if (width > 0 && std::isfinite(width)) widths.push_back(width);
+        }
+    }
+    if (widths.empty()) return {};
+    const auto half = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+    std::nth_element(widths.begin(), half, widths.end());
+    return {middle ? *half * distance_to_middle(gbuffer, seats.photons[region.object]) : *half};
+}
+
+float brush_pixel(const BrushScale& scale, const Seen& seen) {
+    const float pixel = footprint_of(seen).least;
+    if (!(pixel > 0) || !std::isfinite(pixel)) return scale.usual;
+    return std::clamp(scale.usual, pixel / give, pixel * give);
+}
+
+} // namespace pnr
