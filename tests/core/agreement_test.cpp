@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Photons and paths, which share rays and materials alone, find the same light: on a dozen scenes the photon map's pictures
-// agree with path-traced ones within the error that both state.
+// Photons and paths, which share rays and materials alone, find the same light: on a dozen scenes the photon
+// map's pictures agree with path-traced ones within the error that both state.
 #include <gtest/gtest.h>
 
 #include "library_file.h"
@@ -19,7 +19,7 @@ constexpr int side = 24;
 struct Case {
     const char* name;
     Scene (*scene)();
-    int paths = 400;// passes of the path tracer
+    int paths = 400; // passes of the path tracer
 };
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
@@ -158,7 +158,8 @@ TEST_P(Agreement, PhotonsAndPathsFindTheSameLight) {
     settings.photons.count = 30000;
     settings.photons.global = true;
     Scene scene = c.scene();
-    for (LightSource& light : scene.lights) light.no_image = true; // far brighter than all else, its borders would be all the noise
+    for (LightSource& light : scene.lights)
+        light.no_image = true; // far brighter than all else, its borders would be all the noise
     const World world = build_world(scene, settings);
     ASSERT_EQ(world.illumination, Illumination::photon_mapped);
     const ProgressiveSum photons = run_passes(world, settings, 12);
@@ -167,7 +168,8 @@ TEST_P(Agreement, PhotonsAndPathsFindTheSameLight) {
     const ProgressiveSum paths = run_passes(world, settings, c.paths);
     const PixelRect window{0, 0, side, side};
     const ErrorEstimate mine = estimate_error(photons, window), theirs = estimate_error(paths, window);
-    const double t = boost::math::quantile(boost::math::students_t_distribution<double>(2.0 * (mine.batches - 1)), 0.95);
+    const double t =
+        boost::math::quantile(boost::math::students_t_distribution<double>(2.0 * (mine.batches - 1)), 0.95);
     glm::dvec3 sum{0}, other{0};
     double noise2 = 0;
     int inside = 0, all = 0;
@@ -186,10 +188,6 @@ TEST_P(Agreement, PhotonsAndPathsFindTheSameLight) {
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(sum[i] / other[i], 1, 0.01 + unsure) << "channel " << i;
     EXPECT_GE(static_cast<double>(inside) / all, 0.85);
     RecordProperty("inside", std::to_string(static_cast<double>(inside) / all));
-    if (std::getenv("PNR_SHOW")) {
-        if (std::string(c.name)=="many_lights"||std::string(c.name)=="caustic") for (int y=0;y<side;++y){ for(int x=0;x<side;++x) fprintf(stderr,"%5.0f", 1000*double(luminance(photons.mean.color.at(x,y)-paths.mean.color.at(x,y)))); fprintf(stderr,"\n");}
-        fprintf(stderr, "%s ratio %.4f %.4f %.4f +- %.4f inside %.3f\n", c.name, sum[0]/other[0], sum[1]/other[1], sum[2]/other[2], unsure, double(inside)/all);
-    } // SHOW
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Agreement, testing::ValuesIn(cases),

@@ -59,7 +59,7 @@ TEST(Furnace, PhotonsAloneGiveTheWallsRadianceWithEachKernel) {
                 mean_over_wall(f.world, 4000, [&](const Hit& hit, const Bsdf& bsdf, Vec3 out, Rng&) {
                     return gather(f.world, f.map, settings, hit.position, bsdf, out, scratch);
                 });
-            EXPECT_NEAR(found / f.expected, 1, 0.01)
+            EXPECT_NEAR(found / f.expected, 1, 0.005)
                 << "kernel " << static_cast<int>(kernel) << " k " << count;
         }
     }
@@ -75,7 +75,7 @@ TEST(Furnace, DirectLightAndPhotonsGiveTheWallsRadiance) {
             return direct_light(f.world, hit, bsdf, out, 4, rng) +
                    gather(f.world, f.map, settings, hit.position, bsdf, out, scratch);
         });
-    EXPECT_NEAR(found / f.expected, 1, 0.01);
+    EXPECT_NEAR(found / f.expected, 1, 0.005);
 }
 
 TEST(Furnace, PathsGiveTheWallsRadiance) {
@@ -84,7 +84,7 @@ TEST(Furnace, PathsGiveTheWallsRadiance) {
         const Ray ray{hit.position + out, -out};
         return path_radiance(f.world, ray, f.settings.render, false, rng);
     });
-    EXPECT_NEAR(found / f.expected, 1, 0.01);
+    EXPECT_NEAR(found / f.expected, 1, 0.005);
 }
 
 } // namespace

@@ -9,7 +9,8 @@
 
 namespace pnr::test {
 
-inline ProgressiveSum run_passes(const World& world, const Settings& settings, int passes, bool large = false) {
+inline ProgressiveSum run_passes(const World& world, const Settings& settings, int passes,
+                                 bool large = false) {
     const PictureView view{world.camera, settings.render.width, settings.render.height};
     const PixelRect window{0, 0, view.width, view.height};
     const GBuffer gbuffer = make_gbuffer(world, view, window, settings.render);
@@ -26,7 +27,8 @@ inline ProgressiveSum run_passes(const World& world, const Settings& settings, i
             map.radius *= static_cast<float>(std::sqrt(step.shrink));
             map.caustic_radius *= static_cast<float>(std::sqrt(step.shrink));
         }
-        if (photons && !step.preview && !map.field) map.field = make_irradiance_field(world, map, {step.shrink, 0});
+        if (photons && !step.preview && !map.field)
+            map.field = make_irradiance_field(world, map, {step.shrink, 0});
         add_pass(sum, step, render(world, gbuffer, map, own, window, false, {}, step.samples));
     }
     return sum;
