@@ -2,6 +2,7 @@
 #include "cli/options.h"
 
 #include "cli/help_command.h"
+#include "cli/options_more.h"
 #include "cli/povray_options.h"
 #include "parser/diagnostic.h"
 
@@ -415,9 +416,11 @@ struct Parsing {
         add_ilic(app, options, words, progress);
         add_stability(app, options, words);
         add_converge(app, options, words, progress);
+        add_fmt(app, options);
         app.footer("Exit codes: 0 done, 1 render failed, 2 usage, 3 error in the scene, 4 file not read or "
                    "written,\n"
-                   "5 done, but --error was missed or a stability case fails, 130 or 143 stopped by a signal.");
+                   "5 done, but --error was missed, a stability case fails or fmt --check would\n"
+                   "change a file, 130 or 143 stopped by a signal.");
     }
     Parsing(const Parsing&) = delete; // the app points into it
     Parsing& operator=(const Parsing&) = delete;
