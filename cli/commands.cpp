@@ -66,6 +66,7 @@ int run_program(const std::vector<std::string>& arguments) {
         if (options.command == "ilic") return run_ilic(options);
         if (options.command == "stability") return run_stability(options);
         if (options.command == "converge") return run_converge(options);
+        if (options.command == "fmt") return run_fmt(options);
         return run_render(options);
     } catch (const UsageError& error) {
         print_error(error.what());

@@ -20,5 +20,6 @@ int run_pick(const Options& options);
 int run_ilic(const Options& options);
 int run_stability(const Options& options);
 int run_converge(const Options& options);
+int run_fmt(const Options& options);
 
 } // namespace pnr

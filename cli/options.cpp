@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/options.h"
 
+#include "cli/help_command.h"
+#include "cli/options_more.h"
 #include "cli/povray_options.h"
 #include "parser/diagnostic.h"
 
@@ -81,7 +83,7 @@ struct Words {
     std::string scene, size, crop, frames, subset, aov, at, to, help, groups, sweep;
     std::string budgets = "1,2,4,8,16,32";
     std::vector<std::string> declares, outputs, library, limits;
-    bool no_prune = false;
+    bool no_prune = false, manual = false;
 };
 
 void add_scene_options(CLI::App& app, Options& options, Words& words) {
@@ -236,8 +238,10 @@ void add_others(CLI::App& parent, Options& options, Words& words, std::optional<
     pick.footer("Example:\n  pnr pick pot.pnr --at 250,300 --to 290,300\n"
                 "Pixels are those of the picture that `pnr render` makes with the same -W and -H.");
 
-    CLI::App& help = *parent.add_subcommand("help", "Explain a command");
-    help.add_option("COMMAND", words.help, "render, check, plan, pick, ilic, stability or converge");
+    CLI::App& help = *parent.add_subcommand("help", "Explain a command or a word of the language");
+    help.add_option("WORD", words.help, "A command, or a keyword, directive, function or block such as `sphere`");
+    help.add_flag("--manual", words.manual, "All words of the language, as Markdown");
+    help.footer("Examples:\n  pnr help render\n  pnr help isosurface\n  pnr help '#for'");
 }
 
 void add_ilic(CLI::App& parent, Options& options, Words& words, std::optional<ProgressMode>& progress) {
@@ -413,9 +417,11 @@ struct Parsing {
         add_ilic(app, options, words, progress);
         add_stability(app, options, words);
         add_converge(app, options, words, progress);
+        add_fmt(app, options);
         app.footer("Exit codes: 0 done, 1 render failed, 2 usage, 3 error in the scene, 4 file not read or "
                    "written,\n"
-                   "5 done, but --error was missed or a stability case fails, 130 or 143 stopped by a signal.");
+                   "5 done, but --error was missed, a stability case fails or fmt --check would\n"
+                   "change a file, 130 or 143 stopped by a signal.");
     }
     Parsing(const Parsing&) = delete; // the app points into it
     Parsing& operator=(const Parsing&) = delete;
@@ -440,7 +446,7 @@ std::string help_text(const std::string& command) {
     else if (is_command(fresh.app, command))
         text = fresh.app.get_subcommand(command)->help("pnr");
     else
-        refuse_command(fresh.app, command);
+        text = help_for_word(command, did_you_mean(fresh.app, {command}));
     return text.ends_with('\n') ? text : text + "\n";
 }
 
@@ -458,7 +464,7 @@ CommandLine parse_command_line(std::vector<std::string> arguments) {
     try {
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
         parsing.options.command = app.get_subcommands().front()->get_name();
-        if (parsing.options.command == "help") line.answer = help_text(parsing.words.help);
+        if (parsing.options.command == "help") line.answer = parsing.words.manual ? whole_manual() : help_text(parsing.words.help);
     } catch (const CLI::CallForHelp&) {
         const auto chosen = app.get_subcommands();
         line.answer = help_text(chosen.empty() ? "" : chosen.front()->get_name());

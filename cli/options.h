@@ -38,7 +38,7 @@ struct IlicOptions {
 };
 
 struct Options {
-    std::string command;                        // render, check, plan, pick, ilic, stability, converge
+    std::string command;                        // render, check, plan, pick, ilic, stability, converge, fmt
     std::vector<std::string> scenes;            // empty: the embedded default scene; "-": standard input
     std::vector<std::filesystem::path> outputs; // "-": PNG to standard output
     std::optional<int> width, height;
@@ -68,6 +68,7 @@ struct Options {
     ProgressMode progress = ProgressMode::automatic;
     bool prune = true, skip_existing = false, no_overwrite = false, werror = false;
     TextFormat format = TextFormat::text;
+    bool check_only = false; // fmt: write nothing
     IlicOptions ilic;
     std::array<int, 2> at{}; // pick: pixels
     std::optional<std::array<int, 2>> to;

@@ -119,6 +119,8 @@ TEST(Options, RefusalsSayWhatWasMeant) {
     EXPECT_NE(refusal({"pick", "a.pnr"}), "");
     EXPECT_NE(refusal({"pick", "a.pnr", "--at", "3"}), "");
     EXPECT_NE(refusal({"help", "nothing"}), "");
+    EXPECT_NE(refusal({"help", "spehre"}).find("`sphere`"), std::string::npos);
+    EXPECT_NE(refusal({"help", "rendr"}).find("`render`"), std::string::npos);
     EXPECT_NE(refusal({"+Zx", "a.pov"}), "");
     EXPECT_NE(refusal({"render", "--skip-existing", "--no-overwrite"}), "");
 }
