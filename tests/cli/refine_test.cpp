@@ -99,7 +99,7 @@ TEST(Refine, ASignalWritesThePictureSoFar) {
         SIGTERM, "passes: 90 %");
     EXPECT_EQ(ran.code, 143);
     EXPECT_TRUE(std::filesystem::exists(folder / "a.png"));
-    EXPECT_GE(error_of(folder, "a.json").at("passes"), 9);
+    EXPECT_GE(error_of(folder, "a.json").at("passes"), 8) << "two batches";
 }
 
 } // namespace

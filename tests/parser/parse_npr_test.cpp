@@ -40,7 +40,7 @@ TEST(ParseNpr, AllItems) {
     EXPECT_EQ(s.field_weight, 0.4);
     EXPECT_EQ(s.radius, 7);
     EXPECT_EQ(s.fill, Fill::random);
-    EXPECT_TRUE(s.folds);
+    EXPECT_FALSE(s.folds); // the paper knows none
     EXPECT_EQ(s.length, 39);
     EXPECT_EQ(s.cell, 6);
     EXPECT_EQ(s.noise_lightness, 0.04);
@@ -86,7 +86,7 @@ TEST(ParseNpr, PaperModeChangesTheBaseAlone) {
     EXPECT_EQ(field_windows(s), Vec2(15, 7)); // along curvature, too
     EXPECT_EQ(style_of("paper_mode on style ilic").edge, 0);
     EXPECT_EQ(s.fill, Fill::random);
-    EXPECT_TRUE(s.folds);
+    EXPECT_FALSE(s.folds); // the paper knows none
     EXPECT_EQ(style_of("", "global_settings { npr { paper_mode on } }").length, 20);
     EXPECT_EQ(style_of("paper_mode off", "global_settings { npr { paper_mode on } }").length, 26);
 }
