@@ -40,7 +40,7 @@ TEST(ParseNpr, AllItems) {
     EXPECT_EQ(s.field_weight, 0.4);
     EXPECT_EQ(s.radius, 7);
     EXPECT_EQ(s.fill, Fill::random);
-    EXPECT_FALSE(s.folds); // the paper knows none
+    EXPECT_TRUE(s.folds);
     EXPECT_EQ(s.length, 39);
     EXPECT_EQ(s.cell, 6);
     EXPECT_EQ(s.noise_lightness, 0.04);
