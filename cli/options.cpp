@@ -418,6 +418,7 @@ struct Parsing {
         add_stability(app, options, words);
         add_converge(app, options, words, progress);
         add_fmt(app, options);
+        add_lsp(app, options);
         app.footer("Exit codes: 0 done, 1 render failed, 2 usage, 3 error in the scene, 4 file not read or "
                    "written,\n"
                    "5 done, but --error was missed, a stability case fails or fmt --check would\n"

@@ -13,4 +13,11 @@ void add_fmt(CLI::App& parent, Options& options) {
                "Examples:\n  pnr fmt pot.pnr\n  pnr fmt --check *.pnr *.inc\n  pnr fmt < pot.pnr");
 }
 
+void add_lsp(CLI::App& parent, Options& options) {
+    CLI::App& app = *parent.add_subcommand("lsp", "Serve an editor: problems while typing, completion, help, names");
+    app.add_option("-L", options.library, "Search this folder for included files")->type_name("DIR")->allow_extra_args(false);
+    app.footer("The Language Server Protocol over standard input and output; the editor starts it for .pnr, .pov and .inc.\n\n"
+               "Examples:\n  pnr lsp\n  pnr lsp -L scenes/include");
+}
+
 } // namespace pnr

@@ -11,5 +11,6 @@ class App;
 namespace pnr {
 
 void add_fmt(CLI::App& parent, Options& options);
+void add_lsp(CLI::App& parent, Options& options);
 
 } // namespace pnr

@@ -122,6 +122,12 @@ std::vector<std::string> grammar_rules(std::string_view word) {
     return found;
 }
 
+std::vector<std::string> grammar_rules() {
+    std::vector<std::string> all;
+    for (const GrammarRule& rule : read_rules(embedded_text("pnr.ebnf"))) all.emplace_back(rule.text);
+    return all;
+}
+
 std::string manual_text(std::string_view word) {
     const ManualEntry* entry = find_manual_entry(word);
     if (entry == nullptr) return {};

@@ -25,6 +25,7 @@ const ManualEntry* find_manual_entry(std::string_view word);
 
 // The rules of the grammar that have this word in quotes or bear its name, as they are written; empty: none.
 std::vector<std::string> grammar_rules(std::string_view word);
+std::vector<std::string> grammar_rules(); // all of them, in the file's order
 
 // What `pnr help WORD` says; empty for a word that has no entry.
 std::string manual_text(std::string_view word);
