@@ -67,6 +67,7 @@ int run_program(const std::vector<std::string>& arguments) {
         if (options.command == "stability") return run_stability(options);
         if (options.command == "converge") return run_converge(options);
         if (options.command == "fmt") return run_fmt(options);
+        if (options.command == "init") return run_init(options);
         if (options.command == "lsp") return run_lsp(options);
         return run_render(options);
     } catch (const UsageError& error) {

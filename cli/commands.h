@@ -21,6 +21,7 @@ int run_ilic(const Options& options);
 int run_stability(const Options& options);
 int run_converge(const Options& options);
 int run_fmt(const Options& options);
+int run_init(const Options& options);
 int run_lsp(const Options& options);
 
 } // namespace pnr

@@ -80,7 +80,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 // What CLI11 fills and still needs a look.
 struct Words {
-    std::string scene, size, crop, frames, subset, aov, at, to, help, groups, sweep;
+    std::string scene, size, crop, frames, subset, aov, at, to, help, groups, sweep, shell;
     std::string budgets = "1,2,4,8,16,32";
     std::vector<std::string> declares, outputs, library, limits;
     bool no_prune = false, manual = false;
@@ -227,6 +227,7 @@ void add_others(CLI::App& parent, Options& options, Words& words, std::optional<
     add_scene_options(plan, options, words);
     add_choice(plan, "--format", format, formats, "How to print the plan");
     plan.add_flag("--no-prune", words.no_prune, "The plan when nothing is left out");
+    plan.footer("Examples:\n  pnr plan pot.pnr\n  pnr plan pot.pnr --format json");
 
     CLI::App& pick = *parent.add_subcommand("pick", "Say what is seen at a pixel, and a seed line for it");
     pick.add_option("SCENE", words.scene, "A scene file; none: the built-in scene");
@@ -418,7 +419,9 @@ struct Parsing {
         add_stability(app, options, words);
         add_converge(app, options, words, progress);
         add_fmt(app, options);
+        add_init(app, options);
         add_lsp(app, options);
+        add_shell_files(app, words.shell);
         app.footer("Exit codes: 0 done, 1 render failed, 2 usage, 3 error in the scene, 4 file not read or "
                    "written,\n"
                    "5 done, but --error was missed, a stability case fails or fmt --check would\n"
@@ -465,6 +468,7 @@ CommandLine parse_command_line(std::vector<std::string> arguments) {
     try {
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
         parsing.options.command = app.get_subcommands().front()->get_name();
+        line.answer = shell_file(Parsing().app, parsing.options.command, parsing.words.shell);
         if (parsing.options.command == "help") line.answer = parsing.words.manual ? whole_manual() : help_text(parsing.words.help);
     } catch (const CLI::CallForHelp&) {
         const auto chosen = app.get_subcommands();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/options_more.h"
 
+#include "cli/shell_files.h"
+
 #include <CLI/CLI.hpp>
 
 namespace pnr {
@@ -13,11 +15,31 @@ void add_fmt(CLI::App& parent, Options& options) {
                "Examples:\n  pnr fmt pot.pnr\n  pnr fmt --check *.pnr *.inc\n  pnr fmt < pot.pnr");
 }
 
+void add_init(CLI::App& parent, Options& options) {
+    CLI::App& app = *parent.add_subcommand("init", "Write a small painted scene to start from");
+    app.add_option("NAME", options.scenes, "The file; .pnr is added if it is not said")->required()->expected(1);
+    app.footer("A file that is there already is left alone: exit code 4.\n\nExamples:\n  pnr init pot\n  pnr init scenes/pot.pnr");
+}
+
 void add_lsp(CLI::App& parent, Options& options) {
     CLI::App& app = *parent.add_subcommand("lsp", "Serve an editor: problems while typing, completion, help, names");
     app.add_option("-L", options.library, "Search this folder for included files")->type_name("DIR")->allow_extra_args(false);
     app.footer("The Language Server Protocol over standard input and output; the editor starts it for .pnr, .pov and .inc.\n\n"
                "Examples:\n  pnr lsp\n  pnr lsp -L scenes/include");
+}
+
+void add_shell_files(CLI::App& parent, std::string& shell) {
+    CLI::App& completions = *parent.add_subcommand("completions", "Print a shell's completions of this command line");
+    completions.add_option("SHELL", shell, "bash, zsh or fish")->required()->check(CLI::IsMember({"bash", "zsh", "fish"}));
+    completions.footer("Examples:\n  source <(pnr completions bash)\n  pnr completions zsh > ~/.zfunc/_pnr\n"
+                       "  pnr completions fish > ~/.config/fish/completions/pnr.fish");
+    parent.add_subcommand("man", "Print the manual page")->footer("Example:\n  pnr man | man -l -");
+}
+
+std::string shell_file(const CLI::App& app, const std::string& command, const std::string& shell) {
+    if (command == "man") return man_page(app, version());
+    if (command != "completions") return {};
+    return shell == "bash" ? bash_completion(app) : shell == "zsh" ? zsh_completion(app) : fish_completion(app);
 }
 
 } // namespace pnr

@@ -4,6 +4,8 @@
 
 #include "cli/options.h"
 
+#include <string>
+
 namespace CLI {
 class App;
 }
@@ -11,6 +13,12 @@ class App;
 namespace pnr {
 
 void add_fmt(CLI::App& parent, Options& options);
+void add_init(CLI::App& parent, Options& options);
 void add_lsp(CLI::App& parent, Options& options);
+
+// `completions` and `man`: texts about the command line itself. `shell` is what was asked for.
+void add_shell_files(CLI::App& parent, std::string& shell);
+// The text of one of them; empty: the command is another one. From an app that has parsed nothing.
+std::string shell_file(const CLI::App& app, const std::string& command, const std::string& shell);
 
 } // namespace pnr
