@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/options.h"
 
+#include "cli/editor_files.h"
 #include "cli/help_command.h"
 #include "cli/options_more.h"
 #include "cli/povray_options.h"
@@ -80,7 +81,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 // What CLI11 fills and still needs a look.
 struct Words {
-    std::string scene, size, crop, frames, subset, aov, at, to, help, groups, sweep, shell;
+    std::string scene, size, crop, frames, subset, aov, at, to, help, groups, sweep, shell, editor;
     std::string budgets = "1,2,4,8,16,32";
     std::vector<std::string> declares, outputs, library, limits;
     bool no_prune = false, manual = false;
@@ -242,6 +243,9 @@ void add_others(CLI::App& parent, Options& options, Words& words, std::optional<
     CLI::App& help = *parent.add_subcommand("help", "Explain a command or a word of the language");
     help.add_option("WORD", words.help, "A command, or a keyword, directive, function or block such as `sphere`");
     help.add_flag("--manual", words.manual, "All words of the language, as Markdown");
+    help.add_option("--editor", words.editor, "The words for an editor's colours, as in grammar/editors")
+        ->type_name("vim|textmate")
+        ->check(CLI::IsMember({"vim", "textmate"}));
     help.footer("Examples:\n  pnr help render\n  pnr help isosurface\n  pnr help '#for'");
 }
 
@@ -454,6 +458,11 @@ std::string help_text(const std::string& command) {
     return text.ends_with('\n') ? text : text + "\n";
 }
 
+std::string help_answer(const Words& words) {
+    if (!words.editor.empty()) return editor_file(words.editor);
+    return words.manual ? whole_manual() : help_text(words.help);
+}
+
 } // namespace
 
 CommandLine parse_command_line(std::vector<std::string> arguments) {
@@ -469,7 +478,7 @@ CommandLine parse_command_line(std::vector<std::string> arguments) {
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
         parsing.options.command = app.get_subcommands().front()->get_name();
         line.answer = shell_file(Parsing().app, parsing.options.command, parsing.words.shell);
-        if (parsing.options.command == "help") line.answer = parsing.words.manual ? whole_manual() : help_text(parsing.words.help);
+        if (parsing.options.command == "help") line.answer = help_answer(parsing.words);
     } catch (const CLI::CallForHelp&) {
         const auto chosen = app.get_subcommands();
         line.answer = help_text(chosen.empty() ? "" : chosen.front()->get_name());

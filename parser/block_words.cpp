@@ -145,10 +145,12 @@ void collect_inside(Collection& found, Parts parts) {
 
 // The part behind a word and the alternatives beside it: in ( "a" | "b" ), x that is x for "a" too.
 std::size_t behind_word(Parts parts, std::size_t at) {
+    const auto is_sign = [&](std::size_t i, std::string_view sign) {
+        return i < parts.size() && parts[i].kind == PartKind::sign && parts[i].text == sign;
+    };
     std::size_t next = at + 1;
-    if (next < parts.size() && parts[next].kind == PartKind::sign &&
-        (parts[next].text == "|" || parts[next].text == ")"))
-        while (next < parts.size() && (is_word(parts[next]) || parts[next].text == "|")) ++next;
+    while (is_sign(next, "|") && next + 1 < parts.size() && is_word(parts[next + 1])) next += 2;
+    if (next > at + 1 && !is_sign(next, ")")) return parts.size(); // alternatives, but not in parentheses
     while (next < parts.size() && parts[next].kind == PartKind::sign && parts[next].text != "|") ++next;
     return next;
 }
