@@ -23,6 +23,8 @@ struct Strata {
 // and each may know less.
 constexpr std::array<Strata, 6> level_strata{{{13, 41}, {11, 34}, {9, 28}, {7, 22}, {6, 19}, {5, 16}}};
 constexpr std::size_t most_levels = 4;
+// How much more than the mean a single ray of a record may bring before more are shot.
+constexpr float spotty = 8;
 // Strata where a point gathers for itself alone, without gradients.
 constexpr Strata own_strata{5, 16};
 // Share of the mean distance to what a record sees within which it is trusted.
@@ -249,6 +251,18 @@ Color irradiance_of(const GatherRays& rays) {
     return sum * static_cast<float>(pi / rays.strata.count());
 }
 
+// Whether one ray brings so much that the record would show as a spot: it met something small and bright, the middle of
+// a caustic most often, of which more rays know better how large it looks.
+bool is_spotty(const GatherRays& rays) {
+    float sum = 0, most = 0;
+    for (int i = 0; i < rays.strata.count(); ++i) {
+        const float light = luminance(rays.radiances[static_cast<std::size_t>(i)]);
+        sum += light;
+        most = std::max(most, light);
+    }
+    return most * static_cast<float>(rays.strata.count()) > spotty * sum;
+}
+
 // Adds the outer product of a vector and a colour to one gradient a channel.
 void add(std::array<glm::dvec3, 3>& gradient, Vec3 v, Color c, double factor) {
     for (int i = 0; i < 3; ++i) gradient[static_cast<std::size_t>(i)] += v * (factor * c[i]);
@@ -313,7 +327,9 @@ Record make_record(const IrradianceField& field, const World& world, const Photo
     if (!hit) return record; // cannot be: the site was made from such a hit
     Rng rng = make_rng(field.seed, Pass::render, hash_words(site.photon, 0x6a09e667f3bcc908ull));
     const Frame frame = make_frame(Vec3(site.normal));
-    const GatherRays rays = shoot({field, world, map}, *hit, frame, strata, rng);
+    const GatherScene scene{field, world, map};
+    GatherRays rays = shoot(scene, *hit, frame, strata, rng);
+    if (is_spotty(rays)) rays = shoot(scene, *hit, frame, level_strata[0], rng);
     record.irradiance = irradiance_of(rays);
     find_gradients(rays, frame, field.levels.back().spacing, record);
     record.reach = trusted_reach(rays, record, trusted_share * std::sqrt(field.settings.shrink), world.radius);
