@@ -85,13 +85,12 @@ std::string vim_syntax() {
         "syntax match pnrNumber "
         "\"\\<\\d\\+\\%(\\.\\d*\\)\\?\\%([eE][-+]\\?\\d\\+\\)\\?\\|\\.\\d\\+\\%([eE][-+]\\?\\d\\+\\)\\?\"\n"
         "syntax region pnrString start=+\"+ skip=+\\\\\\\\\\|\\\\\"+ end=+\"+\n"
-        "syntax match pnrComment \"//.*$\" contains=pnrTodo\n"
-        "syntax region pnrComment start=\"/\\*\" end=\"\\*/\" contains=pnrTodo,pnrComment\n"
-        "syntax keyword pnrTodo contained TODO FIXME\n"
+        "syntax match pnrComment \"//.*$\"\n"
+        "syntax region pnrComment start=\"/\\*\" end=\"\\*/\" contains=pnrComment\n"
         "highlight default link pnrBlock Type\nhighlight default link pnrValue Function\n"
         "highlight default link pnrItem Statement\nhighlight default link pnrDirective PreProc\n"
         "highlight default link pnrNumber Number\nhighlight default link pnrString String\n"
-        "highlight default link pnrComment Comment\nhighlight default link pnrTodo Todo\n"
+        "highlight default link pnrComment Comment\n"
         "let b:current_syntax = 'pnr'\n";
     return text;
 }

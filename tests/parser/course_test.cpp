@@ -32,7 +32,7 @@ TEST(Course, EveryLessonLoadsAndHasASolutionAndAPicture) {
         EXPECT_TRUE(fs::exists(folder / (stem + "_solution.pnr"))) << stem;
         EXPECT_TRUE(says(readme.str(), stem + ".pnr")) << stem;
     }
-    EXPECT_GE(lessons, 6);
+    EXPECT_EQ(lessons, 12);
 }
 
 } // namespace

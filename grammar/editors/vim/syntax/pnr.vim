@@ -56,9 +56,8 @@ syntax keyword pnrItem v_steps variance vertex_vectors view warm water_level wav
 syntax match pnrDirective "#\s*\%(break\|case\|debug\|declare\|default\|else\|elseif\|end\|error\|fclose\|fopen\|for\|if\|ifdef\|ifndef\|include\|local\|macro\|range\|read\|render\|statistics\|switch\|undef\|version\|warning\|while\|write\)\>"
 syntax match pnrNumber "\<\d\+\%(\.\d*\)\?\%([eE][-+]\?\d\+\)\?\|\.\d\+\%([eE][-+]\?\d\+\)\?"
 syntax region pnrString start=+"+ skip=+\\\\\|\\"+ end=+"+
-syntax match pnrComment "//.*$" contains=pnrTodo
-syntax region pnrComment start="/\*" end="\*/" contains=pnrTodo,pnrComment
-syntax keyword pnrTodo contained TODO FIXME
+syntax match pnrComment "//.*$"
+syntax region pnrComment start="/\*" end="\*/" contains=pnrComment
 highlight default link pnrBlock Type
 highlight default link pnrValue Function
 highlight default link pnrItem Statement
@@ -66,5 +65,4 @@ highlight default link pnrDirective PreProc
 highlight default link pnrNumber Number
 highlight default link pnrString String
 highlight default link pnrComment Comment
-highlight default link pnrTodo Todo
 let b:current_syntax = 'pnr'
