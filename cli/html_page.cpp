@@ -20,7 +20,7 @@ body { font: 16px/1.5 Georgia, serif; color: var(--ink); background: var(--paper
 h1, h2 { font-weight: normal; line-height: 1.2; } h2 { margin-top: 2.5rem; border-bottom: 1px solid var(--rule); }
 table { border-collapse: collapse; font: 14px/1.4 ui-monospace, monospace; width: 100%; }
 th, td { text-align: left; padding: .2rem .8rem .2rem 0; border-bottom: 1px solid var(--rule); vertical-align: top; }
-th { cursor: pointer; } td.number { text-align: right; } tr.bad td { color: var(--bad); font-weight: bold; }
+.wide { overflow-x: auto; } th { cursor: pointer; } td.number { text-align: right; } tr.bad td { color: var(--bad); font-weight: bold; }
 figure { display: inline-block; margin: .5rem 1rem .5rem 0; vertical-align: top; } figcaption { font-size: 13px; }
 figure img { display: block; max-width: 100%; height: auto; cursor: zoom-in; } figure.grown { display: block; } figure.grown img { width: 100%; image-rendering: pixelated; }
 svg text { font: 12px ui-monospace, monospace; fill: var(--ink); } svg .axis { stroke: var(--rule); fill: none; }
@@ -119,7 +119,7 @@ std::string html_text(std::string_view text) {
 }
 
 std::string html_table(const HtmlTable& table) {
-    std::string html = "<table><thead><tr>";
+    std::string html = "<div class=\"wide\"><table><thead><tr>";
     for (const std::string& head : table.head) html += "<th>" + html_text(head) + "</th>";
     html += "</tr></thead><tbody>\n";
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
@@ -128,7 +128,7 @@ std::string html_table(const HtmlTable& table) {
             html += (is_number(cell) ? "<td class=\"number\">" : "<td>") + html_text(cell) + "</td>";
         html += "</tr>\n";
     }
-    return html + "</tbody></table>\n";
+    return html + "</tbody></table></div>\n";
 }
 
 std::string table_text(const HtmlTable& table) {

@@ -104,6 +104,12 @@ void add_scene_options(CLI::App& app, Options& options, Words& words) {
         ->type_name("DIR");
 }
 
+void add_threads(CLI::App& app, Options& options) {
+    app.add_option("--threads", options.threads, "Threads to use (default: all)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+}
+
 void add_size_options(CLI::App& app, Options& options, Words& words) {
     app.add_option("-W", options.width, "Width in pixels (default: 512, or from -H and the camera)")
         ->type_name("N");
@@ -129,6 +135,13 @@ void add_choice(CLI::App& app, const char* name, std::optional<T>& target, std::
         ->type_name(names);
 }
 
+void add_progress(CLI::App& app, std::optional<ProgressMode>& progress) {
+    add_choice<ProgressMode>(
+        app, "--progress", progress,
+        {{"auto", ProgressMode::automatic}, {"off", ProgressMode::off}, {"json", ProgressMode::json}},
+        "Progress on standard error");
+}
+
 void add_render(CLI::App& parent, Options& options, Words& words, std::optional<ProgressMode>& progress) {
     CLI::App& app = *parent.add_subcommand("render", "Render a scene to a picture");
     app.add_option("SCENE", words.scene,
@@ -138,9 +151,7 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
         ->type_name("IMAGE")
         ->allow_extra_args(false);
     add_size_options(app, options, words);
-    app.add_option("--threads", options.threads, "Threads to use (default: all)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 1024));
+    add_threads(app, options);
     app.add_option("--seed", options.seed, "Random seed; the same seed gives the same picture, bit for bit")
         ->type_name("N");
     add_scene_options(app, options, words);
@@ -186,10 +197,7 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
     app.add_option("--save-photons", options.save_photons, "Keep the photon map")->type_name("FILE");
     app.add_option("--load-photons", options.load_photons, "Use a kept photon map of the same scene")
         ->type_name("FILE");
-    add_choice<ProgressMode>(
-        app, "--progress", progress,
-        {{"auto", ProgressMode::automatic}, {"off", ProgressMode::off}, {"json", ProgressMode::json}},
-        "Progress on standard error");
+    add_progress(app, progress);
     app.add_flag("--no-prune", words.no_prune, "Run every pass and structure, needed or not");
     auto* skip = app.add_flag("--skip-existing", options.skip_existing,
                               "Do nothing if the pictures are there already");
@@ -267,13 +275,8 @@ void add_ilic(CLI::App& parent, Options& options, Words& words, std::optional<Pr
         ->type_name("FACTOR")
         ->check(CLI::Range(0.05, 20.0));
     app.add_option("--seed", options.seed, "Random seed")->type_name("N");
-    app.add_option("--threads", options.threads, "Threads to use (default: all)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 1024));
-    add_choice<ProgressMode>(
-        app, "--progress", progress,
-        {{"auto", ProgressMode::automatic}, {"off", ProgressMode::off}, {"json", ProgressMode::json}},
-        "Progress on standard error");
+    add_threads(app, options);
+    add_progress(app, progress);
     app.footer("Example:\n  pnr ilic photo.jpg -o painting.png --style oil --length 20\n"
                "Strokes follow the picture's edges [Wang and Lee 2003]; paint in space is `pnr render`'s.");
 }
@@ -283,9 +286,7 @@ void add_stability(CLI::App& parent, Options& options, Words& words) {
     app.add_option("--group", words.groups, "These groups alone: paths, fields, roots, rays, photons, sums, pictures")
         ->type_name("NAME,...");
     app.add_option("--html", options.html, "Write the table as a page too")->type_name("FILE");
-    app.add_option("--threads", options.threads, "Threads to use (default: all)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 1024));
+    add_threads(app, options);
     app.footer("Each line is a case that could break: what is measured, the bound that theory or a computation with 50\n"
                "digits gives, and what came out. Exit code 5 if one does not hold. All groups take about a minute.\n\n"
                "Example:\n  pnr stability --group rays,roots --html stability.html");
@@ -310,13 +311,8 @@ void add_converge(CLI::App& parent, Options& options, Words& words, std::optiona
     app.add_option("--csv", options.csv, "Write the table, - prints it")->type_name("FILE");
     app.add_option("--html", options.html, "Write a page with plots and pictures")->type_name("FILE");
     app.add_option("--seed", options.seed, "Random seed")->type_name("N");
-    app.add_option("--threads", options.threads, "Threads to use (default: all)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 1024));
-    add_choice<ProgressMode>(
-        app, "--progress", progress,
-        {{"auto", ProgressMode::automatic}, {"off", ProgressMode::off}, {"json", ProgressMode::json}},
-        "Progress on standard error");
+    add_threads(app, options);
+    add_progress(app, progress);
     app.footer("One progressive run is looked at whenever a budget is used up. Error is measured over the photoreal pixels,\n"
                "against two independent references whose own noise drops out: root mean squares, absolute and relative to\n"
                "light + a tenth of the mean; the ratio of means; the 99th percentile; the mean distance in Oklab as\n"

@@ -151,8 +151,11 @@ Color near_light(const GatherScene& scene, const Hit& hit, const Bsdf& matt, Vec
                  Rng& rng, std::vector<Neighbour>& scratch) {
     const Color direct = direct_light(scene.world, hit, matt, outgoing, 1, rng);
     if (!caustics || scene.map.caustic.count == 0) return direct;
-    const GatherSettings alone{
-        lit_neighbours, scene.map.radius, GatherKernel::epanechnikov, false, false, true, 0, false};
+    GatherSettings alone;
+    alone.count = lit_neighbours;
+    alone.radius = scene.map.radius;
+    alone.indirect = false;
+    alone.field = false;
     return direct + gather(scene.world, scene.map, alone, hit.position, matt, outgoing, scratch);
 }
 

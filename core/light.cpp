@@ -292,7 +292,7 @@ LightSample sample_disc(const Light& light, Vec3 position, Vec2 u) {
     return sample;
 }
 
-// The solid angle of a rectangle, and a point of it by solid angle [Urena, Fajardo, King 2013, "An
+// The solid angle of a rectangle, and a point of it by solid angle [Urena et al. 2013, "An
 // area-preserving parametrization for spherical rectangles"]. Needs perpendicular edges.
 struct SphericalRectangle {
     Vec3 origin, x, y, z;      // local frame at the lit position; z points away from the rectangle

@@ -76,7 +76,7 @@ struct RenderSettings {
 // ---- painting
 // -------------------------------------------------------------------------------------------------
 
-// -r and r^3. In space r is itself the biharmonic function [Carr 2001], so the word `linear` means
+// -r and r^3. In space r is itself the biharmonic function [Carr et al. 2001], so the word `linear` means
 // biharmonic too.
 enum class RbfKernel { biharmonic, triharmonic };
 enum class FieldSource { seeds, curvature_min, curvature_max, along, around, light, gradient };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "npr/brush_scale.h"
 
+#include "npr/footprint.h"
+
 namespace pnr {
 
 namespace {

@@ -2,6 +2,7 @@
 #include "npr/cells.h"
 
 #include "core/rng.h"
+#include "npr/footprint.h"
 #include "npr/point_buckets.h"
 #include "npr/seen_photons.h"
 

@@ -2,6 +2,7 @@
 #include "npr/folds.h"
 
 #include "core/parallel.h"
+#include "npr/footprint.h"
 #include "npr/maps.h"
 
 #include <atomic>
@@ -22,17 +23,6 @@ bool is_fold(const Seen& a, const Seen& b, float pixel) {
 }
 
 } // namespace
-
-Footprint footprint_of(const Seen& seen) {
-    const float uu = glm::dot(seen.dpdx, seen.dpdx), uv = glm::dot(seen.dpdx, seen.dpdy),
-                vv = glm::dot(seen.dpdy, seen.dpdy);
-    const float middle = 0.5f * (uu + vv), radius = std::hypot(0.5f * (uu - vv), uv);
-    const float most2 = middle + radius;
-    if (!(most2 > 0)) return {};
-    // The product of both is the area: stable where they differ much.
-    const float area2 = std::max(0.0f, uu * vv - uv * uv);
-    return {std::sqrt(area2 / most2), std::sqrt(most2)};
-}
 
 Folds find_folds(const GBuffer& gbuffer) {
     Folds folds;

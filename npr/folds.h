@@ -27,10 +27,4 @@ inline std::uint8_t wall_bit(int dx, int dy) {
 // Whether a fold lies between two pixels, on the way of pixels that is nearest to the line between them.
 bool is_folded_between(const Folds& folds, int x0, int y0, int x1, int y1);
 
-// How far the seen point moves with a pixel: least and most over all directions in the picture, world units.
-struct Footprint {
-    float least = 0, most = 0;
-};
-Footprint footprint_of(const Seen& seen);
-
 } // namespace pnr

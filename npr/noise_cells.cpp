@@ -3,6 +3,7 @@
 
 #include "core/rng.h"
 #include "npr/cells.h"
+#include "npr/footprint.h"
 
 namespace pnr {
 

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "npr/seen_photons.h"
 
+#include "npr/footprint.h"
 #include "npr/maps.h"
 
 #include <map>
 
 namespace pnr {
-
-std::optional<Vec2> footprint_offset(const Seen& seen, Vec3 offset) {
-    const Vec3 u(seen.dpdx), v(seen.dpdy);
-    const double uu = glm::dot(u, u), uv = glm::dot(u, v), vv = glm::dot(v, v);
-    const double determinant = uu * vv - uv * uv;
-    if (!(determinant > 1e-12 * uu * vv)) return {};
-    const double du = glm::dot(offset, u), dv = glm::dot(offset, v);
-    return Vec2(vv * du - uv * dv, uu * dv - uv * du) / determinant;
-}
 
 namespace {
 

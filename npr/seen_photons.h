@@ -5,7 +5,6 @@
 #include "core/gbuffer.h"
 #include "core/photon_map.h"
 
-#include <optional>
 #include <vector>
 
 namespace pnr {
@@ -21,9 +20,5 @@ struct SeenPhoton {
 // In the order of the photons, in chunks. Needs PhotonMap::normals.
 std::vector<std::vector<SeenPhoton>> see_photons(const World& world, const GBuffer& gbuffer,
                                                  const PhotonMap& map);
-
-// An offset from the seen point in steps of its footprint: least squares over the tangent plane. Nothing if
-// the footprint is degenerate.
-std::optional<Vec2> footprint_offset(const Seen& seen, Vec3 offset);
 
 } // namespace pnr

@@ -2,6 +2,7 @@
 // Steps 1 and 2 of [LW10 3.2.2], and the projection that ends step 3.
 #include "core/radiance.h"
 #include "npr/paint.h"
+#include "npr/footprint.h"
 #include "npr/seen_photons.h"
 
 #include <atomic>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/scene.h"
 #include "npr/folds.h"
+#include "npr/footprint.h"
 #include "synthetic.h"
 
 #include <gtest/gtest.h>
