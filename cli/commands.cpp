@@ -42,8 +42,13 @@ int run_plan(const Options& options) {
     LoadResult loaded;
     if (!load_and_report(options, {}, loaded)) return exit_scene;
     return with_scene_errors(loaded.sources, [&] {
-        const Settings settings = merge_settings(loaded.settings, options);
-        const Plan plan = make_plan(build_world(*loaded.scene, settings), settings, false);
+        Reuse reuse;
+        reuse.scene = identity_of(loaded);
+        if (options.cache) reuse.disk = users_cache();
+        Passes passes(ProgressMode::off, true);
+        Rendering r = plan_rendering(*loaded.scene, merge_settings(loaded.settings, options), {}, reuse, passes);
+        note_stored(reuse, r);
+        const Plan& plan = r.plan;
         print_answer(options.format == TextFormat::json ? plan_json(plan) : plan_text(plan));
         return exit_done;
     });
