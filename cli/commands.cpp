@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/commands.h"
 
+#include "cli/identity.h"
 #include "cli/interrupt.h"
 #include "cli/load.h"
 #include "cli/pipeline.h"
@@ -58,6 +59,7 @@ int run_plan(const Options& options) {
 
 int run_program(const std::vector<std::string>& arguments) {
     install_signal_handlers();
+    build_identity(); // before modules are loaded
     try {
         const CommandLine line = parse_command_line(arguments);
         if (!line.answer.empty()) {

@@ -23,9 +23,21 @@ std::vector<unsigned char> bytes_of(const fs::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
+struct BuildIds {
+    Hasher hash;
+    std::vector<std::string_view> names; // parts of the names of the libraries that count; empty: all
+};
+
+bool counts(const BuildIds& ids, std::string_view name) {
+    return ids.names.empty() || std::any_of(ids.names.begin(), ids.names.end(), [&](std::string_view part) {
+               return name.find(part) != std::string_view::npos;
+           });
+}
+
 // Adds the build id of a program or library, a note among its loaded segments.
-int add_build_id(dl_phdr_info* library, std::size_t, void* hasher) {
-    auto& hash = *static_cast<Hasher*>(hasher);
+int add_build_id(dl_phdr_info* library, std::size_t, void* build_ids) {
+    auto& ids = *static_cast<BuildIds*>(build_ids);
+    if (!counts(ids, library->dlpi_name)) return 0;
     for (int i = 0; i < library->dlpi_phnum; ++i) {
         const ElfW(Phdr)& segment = library->dlpi_phdr[i];
         if (segment.p_type != PT_NOTE) continue;
@@ -37,7 +49,7 @@ int add_build_id(dl_phdr_info* library, std::size_t, void* hasher) {
             const auto padded = [](std::size_t size) { return (size + 3) & ~std::size_t{3}; };
             const unsigned char* const text = at + sizeof note + padded(note.n_namesz);
             if (text + padded(note.n_descsz) > end) break;
-            if (note.n_type == NT_GNU_BUILD_ID) hash.add(hash_bytes({text, note.n_descsz}));
+            if (note.n_type == NT_GNU_BUILD_ID) ids.hash.add(hash_bytes({text, note.n_descsz}));
             at = text + padded(note.n_descsz);
         }
     }
@@ -115,14 +127,20 @@ std::uint64_t hash_bytes(std::span<const unsigned char> bytes) {
 
 std::uint64_t build_identity() {
     static const std::uint64_t identity = [] {
-        Hasher hash;
-        hash.add(std::string_view(version()));
-        dl_iterate_phdr(add_build_id, &hash);
-        add_program_file(hash);
-        add_processor(hash);
-        return hash.value;
+        BuildIds ids;
+        ids.hash.add(std::string_view(version()));
+        dl_iterate_phdr(add_build_id, &ids);
+        add_program_file(ids.hash);
+        add_processor(ids.hash);
+        return ids.hash.value;
     }();
     return identity;
+}
+
+std::uint64_t reader_identity() {
+    BuildIds ids{{}, {"pnr_image", "pnr_font", "OpenImageIO", "OpenEXR", "png", "jpeg", "tiff", "webp", "freetype"}};
+    dl_iterate_phdr(add_build_id, &ids);
+    return ids.hash.value;
 }
 
 FileStamp stamp_of(const fs::path& file) {
@@ -157,7 +175,10 @@ AssetsRead read_assets(const std::vector<std::string>& assets) {
         read.stamps.push_back(stamp_of(file));
         const std::vector<unsigned char> bytes = bytes_of(file);
         if (bytes.size() != read.stamps.back().size) return {};
-        hash.add(file.extension().string()); // a mesh's form is told by its name
+        const std::string ending = file.extension().string();
+        hash.add(ending); // a mesh's form is told by its name
+        constexpr std::string_view ours[] = {".ply", ".PLY", ".obj", ".OBJ", ".off", ".OFF", ".stl", ".STL", ".mtl", ".df3"};
+        read.pictures_or_fonts |= std::find(std::begin(ours), std::end(ours), ending) == std::end(ours);
         hash.add(hash_bytes(bytes));
     }
     read.hash = hash.value;

@@ -25,9 +25,12 @@ struct Hasher {
 // Of a file's bytes, fast: four words at a time.
 std::uint64_t hash_bytes(std::span<const unsigned char> bytes);
 
-// Of the program's own build and of the libraries that it has loaded, by the build ids that linkers put into them, and of
-// what the processor can do: numbers of the C library differ with it. Two runs with the same one give the same bits.
+// Of the program's own build and of the libraries that it starts with, by the build ids that linkers put into them, and of
+// what the processor can do: numbers of the C library differ with it. Two runs with the same one give the same bits. The
+// first call must come before modules are loaded.
 std::uint64_t build_identity();
+// Likewise of the libraries that read pictures and fonts, once they are loaded.
+std::uint64_t reader_identity();
 
 // A file's size and when it was last written: two that are equal are taken for the same file unchanged.
 struct FileStamp {
@@ -47,6 +50,7 @@ std::vector<std::filesystem::path> files_behind(const std::vector<std::string>& 
 struct AssetsRead {
     std::uint64_t hash = 0;
     std::vector<FileStamp> stamps;
+    bool pictures_or_fonts = false; // beside meshes and densities, which we read ourselves
 };
 AssetsRead read_assets(const std::vector<std::string>& assets);
 bool unchanged(const AssetsRead& assets);

@@ -160,6 +160,7 @@ int run_render(const Options& options) {
     check_aovs(options.aovs);
     const ThreadLimit limit(options.threads);
     Reuse reuse;
+    reuse.film = options.frames.has_value();
     if (options.cache) reuse.disk = users_cache();
     int result = exit_done;
     for (const AnimationFrame& frame : frames_of(options)) {

@@ -2,7 +2,6 @@
 #include "cli/reuse.h"
 
 #include "cli/pipeline.h"
-#include "core/emission.h"
 
 #include <algorithm>
 #include <cstring>
@@ -26,6 +25,7 @@ Hasher base_hash(const SceneIdentity& scene, const World& world) {
     hash.add(build_identity());
     hash.add(scene.world);
     hash.add(scene.assets.hash);
+    if (scene.assets.pictures_or_fonts) hash.add(reader_identity());
     hash.add(std::uint64_t{world.objects.size()});
     hash.add(std::uint64_t{world.surfaces.size()});
     hash.add(std::uint64_t{world.materials.size()});
@@ -77,16 +77,19 @@ void add_radiosity_settings(Hasher& hash, const RadiositySettings& s) {
         hash.add(value);
 }
 
-std::uint64_t photon_key(Hasher hash, const Rendering& r) {
-    const Focus focus = plan_emission(r.world, r.settings.photons).focus; // the camera's share in it
-    add(hash, focus.center);
-    hash.add(focus.radius);
+void add_photon_keys(Hasher hash, const Rendering& r, ReuseKeys& keys) {
     hash.add(r.settings.render.seed);
     add_photon_settings(hash, r.settings.photons);
     hash.add(std::uint64_t{r.plan.normals});
     hash.add(std::uint64_t{r.plan.kdtree});
-    return hash.value;
+    keys.photons_about = hash.value;
+    keys.focus = plan_emission(r.world, r.settings.photons).focus;
+    add(hash, keys.focus.center);
+    hash.add(keys.focus.radius);
+    keys.photons = hash.value;
 }
+
+bool stands_in(const Focus& focus, Vec3 place) { return glm::distance(place, focus.center) <= focus.radius; }
 
 std::uint64_t seen_key(Hasher hash, const SceneIdentity& scene, const Rendering& r) {
     hash.add(scene.camera);
@@ -229,7 +232,15 @@ void find_keys(Reuse& reuse, const Rendering& r, const Wishes& wishes) {
     const bool whole_run = !wishes.refinement && wishes.load_photons.empty() && r.settings.render.prune;
     if (!reuse.scene || !whole_run || reuse.scene->assets.hash == 0 || !unchanged(reuse.scene->assets)) return;
     const Hasher base = base_hash(*reuse.scene, r.world);
-    if (r.plan.photons) reuse.keys.photons = photon_key(base, r);
+    if (r.plan.photons) {
+        add_photon_keys(base, r, reuse.keys);
+        const ReuseKeys& before = reuse.kept;
+        if (reuse.film && before.photons_about == reuse.keys.photons_about &&
+            stands_in(before.focus, r.world.camera.location)) {
+            reuse.keys.photons = before.photons;
+            reuse.keys.focus = before.focus;
+        }
+    }
     if (!r.plan.paint) return; // without paint it is the same picture or another one
     reuse.keys.seen = seen_key(base, *reuse.scene, r);
     reuse.keys.sources = joined_key(reuse.keys, r, "sources");

@@ -11,6 +11,7 @@
 
 #include "cli/disk_cache.h"
 #include "cli/identity.h"
+#include "core/emission.h"
 #include "core/gbuffer.h"
 #include "core/photon_map.h"
 #include "core/render.h"
@@ -27,6 +28,8 @@ struct Wishes;
 
 struct ReuseKeys { // 0: there is none, or it may not be used
     std::uint64_t photons = 0, seen = 0, sources = 0, light = 0;
+    std::uint64_t photons_about = 0; // `photons` without the sphere that they were sent to, ...
+    Focus focus;                     // ... which hangs on the camera where planes are endless
 };
 
 // What is known of a scene before its world is built.
@@ -39,6 +42,9 @@ SceneIdentity identity_of(const LoadResult& loaded);
 struct Reuse {
     std::optional<SceneIdentity> scene; // of the rendering to come; unset: nothing is used again
     std::optional<DiskCache> disk;
+    // Frames of one film: where planes are endless and photons fall about the first frame's camera too, they are kept as
+    // long as the camera stands in their midst. Strokes that hang on photons would else swim.
+    bool film = false;
     ReuseKeys keys; // of the rendering under way
 
     // What the rendering before left, and its keys.
