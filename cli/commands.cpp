@@ -76,6 +76,7 @@ int run_program(const std::vector<std::string>& arguments) {
         if (options.command == "fmt") return run_fmt(options);
         if (options.command == "init") return run_init(options);
         if (options.command == "lsp") return run_lsp(options);
+        if (options.command == "watch") return run_watch(options);
         return run_render(options);
     } catch (const UsageError& error) {
         print_error(error.what());

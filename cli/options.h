@@ -38,7 +38,7 @@ struct IlicOptions {
 };
 
 struct Options {
-    std::string command;                        // render, check, plan, pick, ilic, stability, converge, fmt, init, lsp
+    std::string command;                        // render, watch, check, plan, pick, ilic, stability, converge, fmt, init, lsp
     std::vector<std::string> scenes;            // empty: the embedded default scene; "-": standard input
     std::vector<std::filesystem::path> outputs; // "-": PNG to standard output
     std::optional<int> width, height;

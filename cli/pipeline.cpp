@@ -21,16 +21,6 @@ Layer empty_layer(const PictureView& view) {
     return {Image<Color>(view.width, view.height), Image<float>(view.width, view.height)};
 }
 
-std::vector<std::string> expected_passes(const Plan& plan, const Wishes& wishes) {
-    std::vector<std::string> names{"parse", "build"};
-    if (plan.photons && wishes.load_photons.empty()) names.emplace_back("photons");
-    if (plan.kdtree) names.emplace_back("kdtree");
-    names.emplace_back("gbuffer");
-    if (plan.paint) names.insert(names.end(), {"sparse", "orient", "informative", "ilic"});
-    names.insert(names.end(), {"render", "write"});
-    return names;
-}
-
 // The first photon map: traced, or one that an earlier run has kept.
 PhotonMap first_photons(const Scene& scene, const Rendering& r, const Wishes& wishes, bool field, Passes& passes) {
     PhotonMap map;
@@ -52,6 +42,29 @@ void save_if_asked(const Scene& scene, const Rendering& r, const Wishes& wishes,
 }
 
 } // namespace
+
+std::vector<std::string> passes_to_run(const Rendering& r, const Wishes& wishes) {
+    const Plan& plan = r.plan;
+    std::vector<std::string> names{"parse", "build"};
+    const auto add = [&](const char* name) {
+        const bool kept = std::any_of(plan.left_out.begin(), plan.left_out.end(),
+                                      [&](const LeftOut& left) { return left.what == name; });
+        if (!kept) names.emplace_back(name);
+        return !kept;
+    };
+    const bool traced = plan.photons && wishes.load_photons.empty() && add("photons");
+    const bool sources = plan.paint && add("sparse"), light = add("render");
+    if (plan.kdtree && (traced || sources || light)) names.emplace_back("kdtree");
+    add("gbuffer");
+    if (plan.paint) names.insert(names.end(), {"orient", "informative", "ilic"});
+    names.emplace_back("write");
+    const auto place = [](const std::string& name) {
+        const std::vector<std::string>& all = pass_names();
+        return std::find(all.begin(), all.end(), name) - all.begin();
+    };
+    std::sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) { return place(a) < place(b); });
+    return names;
+}
 
 PhotonMap make_photons(const Rendering& r, const Settings& settings, int batch, double shrink, bool field,
                        Passes& passes) {
@@ -174,19 +187,33 @@ void render_in_passes(const Scene& scene, Rendering& r, const Wishes& wishes, co
     refine(r, wishes, passes);
 }
 
-// Each pass whose result is kept is left out; light at points is asked for by those two that look for it alone.
-void render_at_once(const Scene& scene, Rendering& r, const Wishes& wishes, const PictureView& view, Reuse& reuse,
+// Which results are taken from earlier renderings; the time that it takes counts for the pass it spares.
+struct Taken {
+    bool photons = false, seen = false, sources = false, light = false;
+};
+Taken take_all(Rendering& r, Reuse& reuse, Passes& passes) {
+    Taken taken;
+    const auto take = [&](bool& which, const char* pass, bool found) {
+        which = found;
+        passes.charge(pass);
+    };
+    take(taken.photons, "photons", take_photons(reuse, r));
+    take(taken.seen, "gbuffer", take_seen(reuse, r));
+    if (taken.photons) take(taken.sources, "sparse", take_sources(reuse, r));
+    take(taken.light, "render", take_light(reuse, r));
+    return taken;
+}
+
+// Light at points is asked for by two passes alone, the one of the sources and the one of photoreal light.
+void render_at_once(const Scene& scene, Rendering& r, const Wishes& wishes, const PictureView& view, const Taken& taken,
                     Passes& passes) {
-    const bool lit = passes.run("render", [&](const Progress&) { return take_light(reuse, r); });
-    if (!passes.run("photons", [&](const Progress&) { return take_photons(reuse, r); }))
-        r.photons = first_photons(scene, r, wishes, false, passes);
+    if (!taken.photons) r.photons = first_photons(scene, r, wishes, false, passes);
     save_if_asked(scene, r, wishes, passes);
-    const bool sparse = passes.run("sparse", [&](const Progress&) { return take_sources(reuse, r); });
-    if (!lit || (r.plan.paint && !sparse)) add_field(r, r.settings, 1, r.photons, passes);
-    if (!passes.run("gbuffer", [&](const Progress&) { return take_seen(reuse, r); })) look(r, wishes, view, passes);
+    if (!taken.light || (r.plan.paint && !taken.sources)) add_field(r, r.settings, 1, r.photons, passes);
+    if (!taken.seen) look(r, wishes, view, passes);
     if (r.plan.paint)
-        r.paint = paint(r, passes, sparse ? std::optional(std::move(r.paint.sparse)) : std::nullopt);
-    if (!lit)
+        r.paint = paint(r, passes, taken.sources ? std::optional(std::move(r.paint.sparse)) : std::nullopt);
+    if (!taken.light)
         r.rendered = passes.run("render", [&](const Progress& progress) {
             return render(r.world, r.gbuffer, r.photons, r.settings, r.window, wishes.light_parts, progress);
         });
@@ -214,14 +241,15 @@ Rendering render_scene(const Scene& scene, const Settings& settings, const Wishe
                        Passes& passes) {
     Rendering r = plan_rendering(scene, settings, wishes, reuse, passes);
     if (r.plan.photons && wishes.load_photons.empty()) check_photons(scene, r.world, r.settings, wishes.budgets);
-    passes.expect(expected_passes(r.plan, wishes));
     stop_gently();
+    const Taken taken = take_all(r, reuse, passes);
+    passes.expect(passes_to_run(r, wishes));
     const PictureView view{r.world.camera, r.settings.render.width, r.settings.render.height};
     try {
         if (wishes.refinement)
             render_in_passes(scene, r, wishes, view, passes);
         else
-            render_at_once(scene, r, wishes, view, reuse, passes);
+            render_at_once(scene, r, wishes, view, taken, passes);
     } catch (const Interrupted&) {
         r.stopped = true;
     }

@@ -66,6 +66,9 @@ struct Rendering {
 // The size of the picture: what the settings say, the missing side from the camera's shape.
 PictureSize picture_size(const Camera& camera, const RenderSettings& settings);
 
+// The passes that a rendering runs, in their order: what its plan needs but for what is kept of earlier ones.
+std::vector<std::string> passes_to_run(const Rendering& r, const Wishes& wishes);
+
 // Puts the two layers together as r.picture and counts what no file can hold.
 void complete_picture(Rendering& r);
 // Pass 2 [LW10 3.2]: sparse map, orientation, informative map, ILIC.

@@ -38,16 +38,6 @@ Files files_of(const Options& options, const AnimationFrame& frame) {
     return files;
 }
 
-void check_aovs(const std::vector<std::string>& asked) {
-    const std::vector<std::string>& known = aov_names();
-    for (const std::string& name : asked) {
-        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        const std::string_view near = nearest_word(name, {known.begin(), known.end()});
-        throw UsageError(fmt::format("--aov: there is no part `{}`{}", name,
-                                     near.empty() ? "" : fmt::format("; did you mean `{}`?", near)));
-    }
-}
-
 bool exists(const fs::path& file) { return file != "-" && fs::exists(file); }
 
 // What was done to meshes, and what the orientation fields could not do.
@@ -86,13 +76,6 @@ void report_faults(const SampleFaults& faults) {
     print_warning(fmt::format(
         "samples that no picture can show were left out: {} not a number, {} infinite, {} negative",
         faults.nan, faults.inf, faults.negative));
-}
-
-bool wants_light_parts(const Options& options) {
-    return std::any_of(options.aovs.begin(), options.aovs.end(), [](const std::string& name) {
-        return name == "direct" || name == "indirect" || name == "caustic" || name == "specular" ||
-               name == "photon.density";
-    });
 }
 
 bool wants_error(const Options& options) {
@@ -140,7 +123,7 @@ int render_frame(const Options& options, const AnimationFrame& frame, Reuse& reu
             for (const fs::path& picture : pictures)
                 write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
         };
-        const Wishes wishes{options.crop,         !files.maps.empty(),     wants_light_parts(options),
+        const Wishes wishes{options.crop,         !files.maps.empty(),     wants_light_parts(options.aovs),
                             options.save_photons, options.load_photons,    refinement_of(options),
                             write_pictures,       options.budgets,        {}};
         reuse.scene = identity_of(loaded);

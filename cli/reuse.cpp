@@ -184,10 +184,14 @@ std::vector<unsigned char> bytes_of(const RenderResult& light) {
     return std::move(out.bytes);
 }
 
+// Those pixels alone that hold something.
 std::vector<unsigned char> bytes_of(const SparseMap& sources) {
     Writer out;
-    out.bytes.reserve(sources.pixels.size() * sizeof(SourcePixel) + 16);
-    out.add(sources);
+    for (std::size_t i = 0; i < sources.pixels.size(); ++i) {
+        if (sources.pixels[i].object == 0) continue;
+        out.add(static_cast<std::uint64_t>(i));
+        out.add(sources.pixels[i]);
+    }
     return std::move(out.bytes);
 }
 
@@ -224,7 +228,7 @@ bool fits_world(const GBuffer& seen, const World& world) {
 } // namespace
 
 SceneIdentity identity_of(const LoadResult& loaded) {
-    return {loaded.world_hash, loaded.camera_hash, read_assets(loaded.assets)};
+    return {loaded.world_hash, loaded.camera_hash, loaded.paint_hash, read_assets(loaded.assets)};
 }
 
 void find_keys(Reuse& reuse, const Rendering& r, const Wishes& wishes) {
@@ -299,13 +303,18 @@ bool take_sources(Reuse& reuse, Rendering& r) {
     if (key == 0 || !reuse.disk) return false;
     const auto bytes = load_entry(*reuse.disk, "sources", key);
     if (!bytes) return false;
-    SparseMap sources;
+    SparseMap sources(r.settings.render.width, r.settings.render.height);
     Reader in{*bytes};
-    in.take(sources, r.settings.render.width, r.settings.render.height);
-    const bool fits = std::all_of(sources.pixels.begin(), sources.pixels.end(), [&](const SourcePixel& s) {
-        return s.photon < static_cast<std::int64_t>(r.photons.photons.size()) && s.object < r.world.objects.size();
-    });
-    if (!in.done() || !fits) return refuse(reuse, "sources", key);
+    while (in.whole && !in.done()) {
+        std::uint64_t pixel = 0;
+        SourcePixel source;
+        in.take(pixel);
+        in.take(source);
+        in.whole = in.whole && pixel < sources.pixels.size() && source.object < r.world.objects.size() &&
+                   source.photon < static_cast<std::int64_t>(r.photons.photons.size());
+        if (in.whole) sources.pixels[pixel] = source;
+    }
+    if (!in.done()) return refuse(reuse, "sources", key);
     r.paint.sparse = std::move(sources);
     say(r, "sparse", paint_on_disk);
     return true;
@@ -336,9 +345,9 @@ bool take_light(Reuse& reuse, Rendering& r) {
 void store_on_disk(const Reuse& reuse, const Rendering& r) {
     if (!reuse.disk || !reuse.scene || r.stopped || !unchanged(reuse.scene->assets)) return;
     const DiskCache& disk = *reuse.disk;
-    const auto is_new = [&](const char* kind, std::uint64_t key) {
-        std::error_code error;
-        return key != 0 && !fs::exists(entry_path(disk, kind, key), error);
+    const auto is_new = [&](const char* what, std::uint64_t key) {
+        return key != 0 && std::none_of(r.plan.left_out.begin(), r.plan.left_out.end(),
+                                        [&](const LeftOut& left) { return left.what == what; });
     };
     if (is_new("photons", reuse.keys.photons) && may_store(disk, r.photons.photons.size() * (sizeof(Photon) + sizeof(Vec3f)))) {
         try {
@@ -346,16 +355,20 @@ void store_on_disk(const Reuse& reuse, const Rendering& r) {
         } catch (const FileError&) { // not kept
         }
     }
-    if (is_new("seen", reuse.keys.seen)) store_entry(disk, "seen", reuse.keys.seen, bytes_of(r.gbuffer));
-    if (is_new("sources", reuse.keys.sources)) store_entry(disk, "sources", reuse.keys.sources, bytes_of(r.paint.sparse));
-    if (is_new("light", reuse.keys.light)) store_entry(disk, "light", reuse.keys.light, bytes_of(r.rendered));
+    if (is_new("gbuffer", reuse.keys.seen)) store_entry(disk, "seen", reuse.keys.seen, bytes_of(r.gbuffer));
+    if (is_new("sparse", reuse.keys.sources)) store_entry(disk, "sources", reuse.keys.sources, bytes_of(r.paint.sparse));
+    if (is_new("render", reuse.keys.light)) store_entry(disk, "light", reuse.keys.light, bytes_of(r.rendered));
     drop_oldest(disk);
 }
 
 void keep(Reuse& reuse, Rendering& r) {
-    reuse.kept = {};
-    if (r.stopped) return;
     reuse.kept = reuse.keys;
+    if (r.stopped) { // passes that were not finished have left nothing
+        reuse.kept.light = 0;
+        if (r.photons.photons.empty()) reuse.kept.photons = reuse.kept.photons_about = 0;
+        if (r.gbuffer.seen.empty()) reuse.kept.seen = 0;
+        if (r.paint.sparse.empty()) reuse.kept.sources = 0;
+    }
     reuse.photons = std::move(r.photons);
     reuse.seen = std::move(r.gbuffer);
     reuse.sources = std::move(r.paint.sparse);

@@ -34,7 +34,7 @@ struct ReuseKeys { // 0: there is none, or it may not be used
 
 // What is known of a scene before its world is built.
 struct SceneIdentity {
-    std::uint64_t world = 0, camera = 0;
+    std::uint64_t world = 0, camera = 0, paint = 0;
     AssetsRead assets;
 };
 SceneIdentity identity_of(const LoadResult& loaded);
@@ -66,7 +66,7 @@ bool take_light(Reuse& reuse, Rendering& r);
 
 // Writes to the disk what the rendering made anew.
 void store_on_disk(const Reuse& reuse, const Rendering& r);
-// Keeps all of it for the next one: the rendering loses it.
+// Keeps all of it for the next one, of a rendering that was stopped what it had finished: the rendering loses it.
 void keep(Reuse& reuse, Rendering& r);
 
 // What an earlier run's values would spare this rendering: for `pnr plan`.
