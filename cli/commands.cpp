@@ -77,7 +77,7 @@ int run_program(const std::vector<std::string>& arguments) {
         if (options.command == "init") return run_init(options);
         if (options.command == "lsp") return run_lsp(options);
         if (options.command == "watch") return run_watch(options);
-        return run_render(options);
+        return options.shows.empty() ? run_render(options) : run_show(options);
     } catch (const UsageError& error) {
         print_error(error.what());
         std::fputs("`pnr help` and `pnr help COMMAND` explain the command line\n", stderr);

@@ -81,7 +81,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 // What CLI11 fills and still needs a look.
 struct Words {
-    std::string scene, size, crop, frames, subset, aov, at, to, help, groups, sweep, shell, editor;
+    std::string show, scene, size, crop, frames, subset, aov, at, to, help, groups, sweep, shell, editor;
     std::string budgets = "1,2,4,8,16,32";
     std::vector<std::string> declares, outputs, library, limits;
     bool no_prune = false, manual = false;
@@ -181,6 +181,10 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
     app.add_option("SCENE", words.scene,
                    "A .pnr or .pov file; - reads standard input; none: the built-in scene");
     add_picture_options(app, options, words, progress);
+    app.add_option("--show", words.show,
+                   "In place of the picture show what cannot be seen: field, photons, sparse, informative, partial, ids,\n"
+                   "normals, error, wire; several kinds to NAME_KIND.png, or one -o for each")
+        ->type_name("KIND,...");
     app.add_option("--frames", words.frames,
                    "Render these frames; the scene's `clock` goes from 0 to 1 over them")
         ->type_name("A-B[xSTEP]");
@@ -221,6 +225,7 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
                "  pnr render pot.pnr -D Turn=30 --stats -      with a declared number, statistics on "
                "standard output\n"
                "  pnr render pot.pnr --time 20 --error 0.03    at most 20 s, less if the light is known before\n"
+               "  pnr render pot.pnr --show field,ids          pot_field.png with numbered seeds, pot_ids.png\n"
                "  pnr render turn.pnr --frames 1-48 -o turn.png   turn0001.png to turn0048.png, `clock` from "
                "0 to 1");
 }
@@ -392,6 +397,7 @@ void finish_options(Options& options, const Words& words) {
     if (options.error && !(*options.error > 0 && *options.error < 1e3))
         throw UsageError("--error: a fraction above 0 is expected, such as 0.03");
     options.aovs = split(words.aov, ',');
+    options.shows = split(words.show, ',');
     options.groups = split(words.groups, ',');
     finish_converge(options, words);
     options.prune = !words.no_prune;

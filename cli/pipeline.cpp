@@ -90,7 +90,7 @@ void add_field(const Rendering& r, const Settings& settings, double shrink, Phot
     });
 }
 
-PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> sources) {
+PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> sources, bool strokes) {
     PaintResult p;
     const std::uint64_t seed = r.settings.render.seed;
     p.sparse = sources ? std::move(*sources) : passes.run("sparse", [&](const Progress& progress) {
@@ -104,6 +104,7 @@ PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> s
     p.informative = passes.run("informative", [&](const Progress& progress) {
         return make_informative_map(p.sparse, r.world, r.gbuffer, seed, progress);
     });
+    if (!strokes) return p;
     p.layer = passes.run("ilic", [&](const Progress& progress) {
         return convolve(p.informative, find_seats(r.world, r.gbuffer, r.photons), r.world, r.gbuffer, seed, progress);
     });
@@ -160,6 +161,8 @@ void check_picture(const PictureSize& size, const Budgets& budgets) {
                                  size.width, size.height, budgets.pixels, pixels));
 }
 
+} // namespace
+
 void check_photons(const Scene& scene, const World& world, const Settings& settings, const Budgets& budgets) {
     const std::int64_t count = plan_emission(world, settings.photons).count;
     if (count <= budgets.photons) return;
@@ -168,6 +171,8 @@ void check_photons(const Scene& scene, const World& world, const Settings& setti
                                  "a larger `spacing`, or `--limit photons={}`",
                                  count, budgets.photons, count));
 }
+
+namespace {
 
 // Strokes and fills reach across the picture, so a crop of a painting is cut from the whole painting.
 PixelRect traced_window(const Rendering& r, const Wishes& wishes, const PictureView& view) {

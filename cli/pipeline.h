@@ -69,11 +69,14 @@ PictureSize picture_size(const Camera& camera, const RenderSettings& settings);
 // The passes that a rendering runs, in their order: what its plan needs but for what is kept of earlier ones.
 std::vector<std::string> passes_to_run(const Rendering& r, const Wishes& wishes);
 
+// Throws SceneError if more photons are asked for than may be.
+void check_photons(const Scene& scene, const World& world, const Settings& settings, const Budgets& budgets);
+
 // Puts the two layers together as r.picture and counts what no file can hold.
 void complete_picture(Rendering& r);
 // Pass 2 [LW10 3.2]: sparse map, orientation, informative map, ILIC.
-// `sources`: the sparse map, if it is known.
-PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> sources = {});
+// `sources`: the sparse map, if it is known. `strokes`: the last step is done too.
+PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> sources, bool strokes = true);
 // Pass 1 [LW10 3.1] and its kd-tree. `shrink`: see progressive.h.
 PhotonMap make_photons(const Rendering& r, const Settings& settings, int batch, double shrink, bool field, Passes& passes);
 // Smooth indirect light over a map that has its tree, where the scene needs it.

@@ -43,7 +43,7 @@ void prepare_pass(Rendering& r, const ProgressiveStep& step, const Settings& set
         map.own = make_photons(r, settings, step.batch, step.shrink, true, passes);
         map.now = &map.own;
     }
-    if (r.plan.paint && (pass == 0 || sharper)) r.paint = paint(r, passes);
+    if (r.plan.paint && (pass == 0 || sharper)) r.paint = paint(r, passes, {});
 }
 
 bool enough(Rendering& r, const Refinement& asked, int batches_before, Passes& passes) {
