@@ -81,6 +81,7 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 // What CLI11 fills and still needs a look.
 struct Words {
+    std::optional<std::string> tev;
     std::string show, scene, size, crop, frames, subset, aov, at, to, help, groups, sweep, shell, editor;
     std::string budgets = "1,2,4,8,16,32";
     std::vector<std::string> declares, outputs, library, limits;
@@ -173,6 +174,7 @@ void add_picture_options(CLI::App& app, Options& options, Words& words, std::opt
         ->type_name("DIR");
     app.add_option("--aov", words.aov, "Add these parts to EXR pictures (see below)")->type_name("NAME,...");
     add_cache(app, options);
+    add_tev(app, words.tev);
     add_progress(app, progress);
 }
 
@@ -360,7 +362,8 @@ void finish_converge(Options& options, const Words& words) {
         throw UsageError(fmt::format("--sweep {}: a setting and its values are said as NAME=A,B,...", words.sweep));
 }
 
-void finish_options(Options& options, const Words& words) {
+void finish_options(Options& options, Words& words) {
+    finish_tev(options, words.tev, words.scene);
     if (!words.scene.empty()) options.scenes = {words.scene};
     for (const std::string& output : words.outputs) options.outputs.emplace_back(output);
     for (const std::string& folder : words.library) options.library.emplace_back(folder);

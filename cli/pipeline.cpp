@@ -179,6 +179,10 @@ PixelRect traced_window(const Rendering& r, const Wishes& wishes, const PictureV
     return r.plan.paint || wishes.maps ? whole(view) : grow(r.window, 1, view.width, view.height);
 }
 
+void tell(const Rendering& r, const Wishes& wishes, RenderedPart part, const PixelRect& where) {
+    if (wishes.on_part) wishes.on_part(r, part, where);
+}
+
 void look(Rendering& r, const Wishes& wishes, const PictureView& view, Passes& passes) {
     r.gbuffer = passes.run("gbuffer", [&](const Progress& progress) {
         return make_gbuffer(r.world, view, traced_window(r, wishes, view), r.settings.render, progress);
@@ -189,6 +193,7 @@ void render_in_passes(const Scene& scene, Rendering& r, const Wishes& wishes, co
     r.photons = first_photons(scene, r, wishes, false, passes);
     save_if_asked(scene, r, wishes, passes);
     look(r, wishes, view, passes);
+    tell(r, wishes, RenderedPart::seen, whole(view));
     refine(r, wishes, passes);
 }
 
@@ -209,6 +214,55 @@ Taken take_all(Rendering& r, Reuse& reuse, Passes& passes) {
     return taken;
 }
 
+template <class T>
+void copy_rows(Image<T>& to, const Image<T>& from, const PixelRect& rows) {
+    if (from.empty()) return;
+    if (to.empty()) to = Image<T>(from.width, from.height);
+    const auto begin = static_cast<std::ptrdiff_t>(rows.y0) * from.width, end = static_cast<std::ptrdiff_t>(rows.y1) * from.width;
+    std::copy(from.pixels.begin() + begin, from.pixels.begin() + end, to.pixels.begin() + begin);
+}
+
+void add_band(RenderResult& all, const RenderResult& band, const PixelRect& rows) {
+    copy_rows(all.layer.color, band.layer.color, rows);
+    copy_rows(all.layer.alpha, band.layer.alpha, rows);
+    all.parts.wanted = band.parts.wanted;
+    copy_rows(all.parts.direct, band.parts.direct, rows);
+    copy_rows(all.parts.indirect, band.parts.indirect, rows);
+    copy_rows(all.parts.caustic, band.parts.caustic, rows);
+    copy_rows(all.parts.specular, band.parts.specular, rows);
+    copy_rows(all.parts.photon_density, band.parts.photon_density, rows);
+    all.faults.nan += band.faults.nan;
+    all.faults.inf += band.faults.inf;
+    all.faults.negative += band.faults.negative;
+    all.camera_rays += band.camera_rays;
+    all.gathers += band.gathers;
+    all.stopped = band.stopped;
+}
+
+// For who looks on, band by band: a part of a picture has the bits that it has in the whole. Not where gathered light is
+// prepared for the whole picture each time.
+void find_light(Rendering& r, const Wishes& wishes, const Progress& progress) {
+    const PixelRect& window = r.window;
+    const bool bands = wishes.on_part && r.world.illumination != Illumination::radiosity;
+    const int rows = bands ? 32 : window.y1 - window.y0;
+    RenderResult& all = r.rendered;
+    all = {};
+    for (int y = window.y0; y < window.y1 && !all.stopped; y += rows) {
+        const PixelRect band{window.x0, y, window.x1, std::min(y + rows, window.y1)};
+        constexpr std::int64_t parts = 1000; // of a band
+        const auto of_all = [&](std::int64_t done, std::int64_t total) {
+            return progress((y - window.y0) * parts + (band.y1 - y) * parts * done / total, (window.y1 - window.y0) * parts);
+        };
+        RenderResult found = render(r.world, r.gbuffer, r.photons, r.settings, band, wishes.light_parts, of_all);
+        if (!bands) {
+            all = std::move(found);
+            return;
+        }
+        add_band(all, found, band);
+        tell(r, wishes, RenderedPart::light, band);
+    }
+}
+
 // Light at points is asked for by two passes alone, the one of the sources and the one of photoreal light.
 void render_at_once(const Scene& scene, Rendering& r, const Wishes& wishes, const PictureView& view, const Taken& taken,
                     Passes& passes) {
@@ -216,12 +270,15 @@ void render_at_once(const Scene& scene, Rendering& r, const Wishes& wishes, cons
     save_if_asked(scene, r, wishes, passes);
     if (!taken.light || (r.plan.paint && !taken.sources)) add_field(r, r.settings, 1, r.photons, passes);
     if (!taken.seen) look(r, wishes, view, passes);
-    if (r.plan.paint)
+    tell(r, wishes, RenderedPart::seen, whole(view));
+    if (r.plan.paint) {
         r.paint = paint(r, passes, taken.sources ? std::optional(std::move(r.paint.sparse)) : std::nullopt);
+        tell(r, wishes, RenderedPart::paint, whole(view));
+    }
     if (!taken.light)
-        r.rendered = passes.run("render", [&](const Progress& progress) {
-            return render(r.world, r.gbuffer, r.photons, r.settings, r.window, wishes.light_parts, progress);
-        });
+        passes.run("render", [&](const Progress& progress) { find_light(r, wishes, progress); });
+    else
+        tell(r, wishes, RenderedPart::light, r.window);
     r.stopped = r.rendered.stopped;
 }
 

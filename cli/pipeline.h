@@ -29,6 +29,9 @@ struct Refinement {
     std::optional<int> passes;
 };
 
+// What a rendering has got, piece by piece: the G-buffer; the painting's maps and layer; some of the photoreal light.
+enum class RenderedPart { seen, paint, light };
+
 // What is wanted beside the picture.
 struct Wishes {
     std::optional<CropWord> crop;
@@ -41,6 +44,8 @@ struct Wishes {
     Budgets budgets; // pixels and photons
     // Called after each progressive pass, whose means are in r.rendered; false ends the run.
     std::function<bool(struct Rendering&)> after_pass;
+    // Called with each part that is there; light comes in bands of rows, or in passes of the whole.
+    std::function<void(const struct Rendering&, RenderedPart, const PixelRect&)> on_part;
 };
 
 // All that a rendering leaves behind. Images have the picture's full size; pixels outside `window` are 0.

@@ -85,6 +85,10 @@ void refine(Rendering& r, const Wishes& wishes, Passes& passes) {
         r.passes_done = pass + 1;
         take_means(r);
         if (asked.time_s) passes.set_deadline(*asked.time_s - time_to_write(r));
+        if (wishes.on_part) {
+            if (pass == 0 && r.plan.paint) wishes.on_part(r, RenderedPart::paint, {0, 0, r.gbuffer.view.width, r.gbuffer.view.height});
+            wishes.on_part(r, RenderedPart::light, r.window);
+        }
         if (wishes.after_pass && !wishes.after_pass(r)) break;
         if (stop_signal() != 0 || enough(r, asked, batches, passes)) break;
         if (take_picture_request() && wishes.show) {

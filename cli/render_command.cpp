@@ -10,6 +10,7 @@
 #include "cli/pipeline.h"
 #include "cli/report.h"
 #include "cli/stats.h"
+#include "cli/tev_view.h"
 #include "core/atomic_file.h"
 
 #include <fmt/format.h>
@@ -123,9 +124,12 @@ int render_frame(const Options& options, const AnimationFrame& frame, Reuse& reu
             for (const fs::path& picture : pictures)
                 write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
         };
+        std::optional<TevView> viewer;
+        if (!options.tev.empty()) viewer.emplace(options.tev, "pnr: " + pictures.front().string());
         const Wishes wishes{options.crop,         !files.maps.empty(),     wants_light_parts(options.aovs),
                             options.save_photons, options.load_photons,    refinement_of(options),
-                            write_pictures,       options.budgets,        {}};
+                            write_pictures,       options.budgets,        {},
+                            viewer_of(viewer)};
         reuse.scene = identity_of(loaded);
         Rendering r = render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, reuse, passes);
         for (const std::string& note : notes_of(r)) print_note(note);

@@ -9,6 +9,7 @@
 #include "cli/picture_files.h"
 #include "cli/pipeline.h"
 #include "cli/report.h"
+#include "cli/tev_view.h"
 #include "cli/watched_files.h"
 
 #include <fmt/format.h>
@@ -75,7 +76,7 @@ void write_outputs(const Scene& scene, const Rendering& r, const Options& option
 
 // One picture of the scene as it is now. What a later one can use stays in `reuse`.
 void paint_once(const Options& options, const std::vector<fs::path>& pictures, LoadResult& loaded, const WatchedFiles& watched,
-                Reuse& reuse, Last& last) {
+                Reuse& reuse, Last& last, std::optional<TevView>& viewer) {
     const double began = Passes::elapsed();
     SceneIdentity scene = identity_of(loaded);
     if (nothing_seen_changed(last, scene)) {
@@ -84,7 +85,8 @@ void paint_once(const Options& options, const std::vector<fs::path>& pictures, L
     }
     reuse.scene = scene;
     Passes passes(options.progress, !last.any);
-    const Wishes wishes{options.crop, !options.maps.empty(), wants_light_parts(options.aovs), {}, {}, {}, {}, options.budgets, {}};
+    const Wishes wishes{options.crop, !options.maps.empty(), wants_light_parts(options.aovs), {}, {}, {}, {}, options.budgets, {},
+                        viewer_of(viewer)};
     Rendering r = [&] {
         const StopOnChange stop(watched, passes);
         return render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, reuse, passes);
@@ -118,6 +120,8 @@ int run_watch(const Options& options) {
     Reuse reuse;
     if (options.cache) reuse.disk = users_cache();
     Last last;
+    std::optional<TevView> viewer;
+    if (!options.tev.empty()) viewer.emplace(options.tev, "pnr: " + pictures.front().string());
     std::vector<fs::path> files{scene};
     stop_gently();
     while (stop_signal() == 0) {
@@ -130,7 +134,7 @@ int run_watch(const Options& options) {
             watched = watch_files(files, before);
             if (fine)
                 with_scene_errors(loaded.sources, [&] {
-                    paint_once(options, pictures, loaded, watched, reuse, last);
+                    paint_once(options, pictures, loaded, watched, reuse, last, viewer);
                     return exit_done;
                 });
         } catch (const FileError& error) { // the scene's own file is away, or the picture cannot be written
