@@ -13,7 +13,8 @@ Color displayed(float r, float g, float b);
 // A stroke of one pixel's width, its ends round; coordinates are pixels, (0.5, 0.5) the middle of the first.
 void draw_line(Image<Color>& picture, Vec2 from, Vec2 to, Color color);
 void draw_dot(Image<Color>& picture, Vec2 middle, double radius, Color color);
-// Digits and `%.-`, five pixels high times `size`, top left at (x, y), on a dark ground. What leaves the picture is cut.
+// Digits and `%.-`, five pixels high times `size`, top left at (x, y), on a dark ground. What leaves the
+// picture is cut.
 void draw_number(Image<Color>& picture, int x, int y, std::string_view text, int size, Color color);
 int number_width(std::string_view text, int size);
 

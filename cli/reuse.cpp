@@ -60,8 +60,8 @@ void add_render_settings(Hasher& hash, const RenderSettings& s) {
     hash.add(static_cast<std::uint64_t>(s.samples_min));
     hash.add(static_cast<std::uint64_t>(s.samples_max));
     hash.add(s.contrast);
-    for (const double value : {s.grid.threshold, static_cast<double>(s.grid.depth), s.grid.jitter, s.grid.gamma,
-                               s.grid.value_gamma})
+    for (const double value : {s.grid.threshold, static_cast<double>(s.grid.depth), s.grid.jitter,
+                               s.grid.gamma, s.grid.value_gamma})
         hash.add(value);
     hash.add(static_cast<std::uint64_t>(s.gather_effort));
     hash.add(std::uint64_t{s.sharp});
@@ -98,7 +98,8 @@ std::uint64_t seen_key(Hasher hash, const SceneIdentity& scene, const Rendering&
     add(hash, r.world.camera.right);
     add(hash, r.world.camera.up);
     add_render_settings(hash, r.settings.render);
-    for (const WorldObject& object : r.world.objects) hash.add(std::uint64_t{object.npr && object.paint.mix > 0});
+    for (const WorldObject& object : r.world.objects)
+        hash.add(std::uint64_t{object.npr && object.paint.mix > 0});
     for (const int side : {r.window.x0, r.window.y0, r.window.x1, r.window.y1})
         hash.add(static_cast<std::uint64_t>(side));
     return hash.value;
@@ -154,7 +155,8 @@ struct Reader {
         int w = 0, h = 0;
         take(w);
         take(h);
-        const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(T);
+        const std::size_t size =
+            static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(T);
         whole = whole && w == width && h == height && bytes.size() - at >= size;
         if (!whole) return;
         image = Image<T>(width, height);
@@ -197,10 +199,14 @@ std::vector<unsigned char> bytes_of(const SparseMap& sources) {
 
 // ---- what is said about it
 
-constexpr const char* in_memory = "nothing but camera or paint has changed since the rendering before: its map is used again";
-constexpr const char* on_disk = "nothing but camera or paint has changed since an earlier run: its map is used again";
-constexpr const char* paint_in_memory = "nothing but paint has changed since the rendering before: its result is used again";
-constexpr const char* paint_on_disk = "nothing but paint has changed since an earlier run: its result is used again";
+constexpr const char* in_memory =
+    "nothing but camera or paint has changed since the rendering before: its map is used again";
+constexpr const char* on_disk =
+    "nothing but camera or paint has changed since an earlier run: its map is used again";
+constexpr const char* paint_in_memory =
+    "nothing but paint has changed since the rendering before: its result is used again";
+constexpr const char* paint_on_disk =
+    "nothing but paint has changed since an earlier run: its result is used again";
 
 void say(Rendering& r, const char* what, const char* why) { r.plan.left_out.push_back({what, why}); }
 
@@ -234,7 +240,8 @@ SceneIdentity identity_of(const LoadResult& loaded) {
 void find_keys(Reuse& reuse, const Rendering& r, const Wishes& wishes) {
     reuse.keys = {};
     const bool whole_run = !wishes.refinement && wishes.load_photons.empty() && r.settings.render.prune;
-    if (!reuse.scene || !whole_run || reuse.scene->assets.hash == 0 || !unchanged(reuse.scene->assets)) return;
+    if (!reuse.scene || !whole_run || reuse.scene->assets.hash == 0 || !unchanged(reuse.scene->assets))
+        return;
     const Hasher base = base_hash(*reuse.scene, r.world);
     if (r.plan.photons) {
         add_photon_keys(base, r, reuse.keys);
@@ -349,15 +356,18 @@ void store_on_disk(const Reuse& reuse, const Rendering& r) {
         return key != 0 && std::none_of(r.plan.left_out.begin(), r.plan.left_out.end(),
                                         [&](const LeftOut& left) { return left.what == what; });
     };
-    if (is_new("photons", reuse.keys.photons) && may_store(disk, r.photons.photons.size() * (sizeof(Photon) + sizeof(Vec3f)))) {
+    if (is_new("photons", reuse.keys.photons) &&
+        may_store(disk, r.photons.photons.size() * (sizeof(Photon) + sizeof(Vec3f)))) {
         try {
             save_photons(r.photons, reuse.keys.photons, entry_path(disk, "photons", reuse.keys.photons));
         } catch (const FileError&) { // not kept
         }
     }
     if (is_new("gbuffer", reuse.keys.seen)) store_entry(disk, "seen", reuse.keys.seen, bytes_of(r.gbuffer));
-    if (is_new("sparse", reuse.keys.sources)) store_entry(disk, "sources", reuse.keys.sources, bytes_of(r.paint.sparse));
-    if (is_new("render", reuse.keys.light)) store_entry(disk, "light", reuse.keys.light, bytes_of(r.rendered));
+    if (is_new("sparse", reuse.keys.sources))
+        store_entry(disk, "sources", reuse.keys.sources, bytes_of(r.paint.sparse));
+    if (is_new("render", reuse.keys.light))
+        store_entry(disk, "light", reuse.keys.light, bytes_of(r.rendered));
     drop_oldest(disk);
 }
 

@@ -47,7 +47,8 @@ bool is_seen(const Rendering& r, const Projected& at, double tolerance) {
     const int x = static_cast<int>(std::floor(at.pixel.x)), y = static_cast<int>(std::floor(at.pixel.y));
     if (!r.gbuffer.seen.contains(x, y)) return false;
     const Seen& seen = r.gbuffer.seen.at(x, y);
-    return seen.object != 0 && seen.via == 0 && std::abs(at.distance - static_cast<double>(seen.z)) <= tolerance * static_cast<double>(seen.z);
+    return seen.object != 0 && seen.via == 0 &&
+           std::abs(at.distance - static_cast<double>(seen.z)) <= tolerance * static_cast<double>(seen.z);
 }
 
 // ---- ids, normals
@@ -59,7 +60,9 @@ Shown show_ids(const Rendering& r) {
         const Seen& seen = r.gbuffer.seen.pixels[i];
         // In mirrors and through glass darker, and every fourth diagonal tells in what.
         const bool diagonal = seen.via != 0 && (i % static_cast<std::size_t>(shown.picture.width) +
-                                                i / static_cast<std::size_t>(shown.picture.width)) % 4 == 0;
+                                                i / static_cast<std::size_t>(shown.picture.width)) %
+                                                       4 ==
+                                                   0;
         shown.picture.pixels[i] =
             diagonal ? number_color(seen.via) : number_color(seen.object) * (seen.via == 0 ? 1.0f : 0.3f);
         ++pixels[seen.object];
@@ -69,9 +72,10 @@ Shown show_ids(const Rendering& r) {
         const WorldObject& object = r.world.objects[id];
         const Color c = number_color(id);
         const auto byte = [](float v) { return std::lround(255 * srgb_encode(v)); };
-        shown.legend.push_back(fmt::format("object {} #{:02x}{:02x}{:02x} {} {}:{}:{}{}{}", id, byte(c.x), byte(c.y), byte(c.z),
-                                           object.name, object.said_at.file, object.said_at.line, object.said_at.column,
-                                           object.npr ? ", painted" : "", pixels[id] == 0 ? ", not seen" : ""));
+        shown.legend.push_back(
+            fmt::format("object {} #{:02x}{:02x}{:02x} {} {}:{}:{}{}{}", id, byte(c.x), byte(c.y), byte(c.z),
+                        object.name, object.said_at.file, object.said_at.line, object.said_at.column,
+                        object.npr ? ", painted" : "", pixels[id] == 0 ? ", not seen" : ""));
     }
     return shown;
 }
@@ -91,10 +95,12 @@ Shown show_normals(const Rendering& r) {
 // ---- photons
 
 Shown show_photons(const Rendering& r) {
-    const std::array<Color, 3> colors{displayed(1, 0.85f, 0.25f), displayed(0.35f, 0.65f, 1), displayed(1, 0.25f, 0.3f)};
+    const std::array<Color, 3> colors{displayed(1, 0.85f, 0.25f), displayed(0.35f, 0.65f, 1),
+                                      displayed(1, 0.25f, 0.3f)};
     Shown shown{ground(r), {}};
     std::array<std::int64_t, 3> seen{}, all{};
-    for (const PhotonPath path : {PhotonPath::indirect, PhotonPath::direct, PhotonPath::caustic}) { // the few over the many
+    for (const PhotonPath path :
+         {PhotonPath::indirect, PhotonPath::direct, PhotonPath::caustic}) { // the few over the many
         const auto kind = static_cast<std::size_t>(path);
         for (const Photon& photon : r.photons.photons) {
             if (photon.path() != path) continue;
@@ -133,16 +139,18 @@ void draw_seeds(const Rendering& r, const OrientationFields& fields, Shown& show
             const bool seen = at && is_seen(r, *at, 0.02);
             const Vec3 p = seed.position + r.world.offset;
             const SourceRef where = i < said.size() ? said[i].said_at : SourceRef{};
-            shown.legend.push_back(fmt::format("seed {} {}:{}:{} of object {} at <{:.4g}, {:.4g}, {:.4g}>{}", ++number, where.file,
-                                               where.line, where.column, id, p.x, p.y, p.z, seen ? "" : ", not seen"));
+            shown.legend.push_back(fmt::format("seed {} {}:{}:{} of object {} at <{:.4g}, {:.4g}, {:.4g}>{}",
+                                               ++number, where.file, where.line, where.column, id, p.x, p.y,
+                                               p.z, seen ? "" : ", not seen"));
             if (!seen) continue;
             const Vec2 way = project_direction(r.gbuffer.view, seed.position, seed.axis);
             const double length = glm::length(way);
             const Vec2 arm = length > 0 ? way * (5.0 * size / length) : Vec2(0);
             draw_line(shown.picture, at->pixel - arm, at->pixel + arm, displayed(1, 0.2f, 0.15f));
             draw_dot(shown.picture, at->pixel, 1.2 * size, displayed(1, 0.9f, 0.2f));
-            draw_number(shown.picture, static_cast<int>(at->pixel.x) + 2 * size, static_cast<int>(at->pixel.y) + 2 * size,
-                        std::to_string(number), size, displayed(1, 1, 0.6f));
+            draw_number(shown.picture, static_cast<int>(at->pixel.x) + 2 * size,
+                        static_cast<int>(at->pixel.y) + 2 * size, std::to_string(number), size,
+                        displayed(1, 1, 0.6f));
         }
     }
 }
@@ -155,7 +163,8 @@ Shown show_field(const Rendering& r) {
         for (int x = spacing / 2; x < shown.picture.width; x += spacing) {
             const Seen& seen = r.gbuffer.seen.at(x, y);
             if (!is_painted(seen) || !fields.fields[seen.object]) continue;
-            const Vec3 axis = eval_orientation(*fields.fields[seen.object], Vec3(seen.position), Vec3(seen.normal));
+            const Vec3 axis =
+                eval_orientation(*fields.fields[seen.object], Vec3(seen.position), Vec3(seen.normal));
             const Vec2 way = direction_in_picture(r, seen, axis);
             if (!(glm::length(way) > 0)) continue;
             const Vec2 arm = glm::normalize(way) * (0.42 * spacing), middle(x + 0.5, y + 0.5);
@@ -183,7 +192,8 @@ Shown show_sparse(const Rendering& r) {
 }
 
 Shown show_informative(const Rendering& r) {
-    Shown shown{Image<Color>(r.gbuffer.seen.width, r.gbuffer.seen.height, no_ink), {"colours before the strokes; dark: not painted"}};
+    Shown shown{Image<Color>(r.gbuffer.seen.width, r.gbuffer.seen.height, no_ink),
+                {"colours before the strokes; dark: not painted"}};
     for (std::size_t i = 0; i < r.paint.informative.pixels.size(); ++i)
         if (r.paint.informative.pixels[i].kind != PixelKind::outside)
             shown.picture.pixels[i] = as_viewed(r.paint.informative.pixels[i].radiance, r.settings.render);
@@ -191,7 +201,8 @@ Shown show_informative(const Rendering& r) {
 }
 
 Shown show_partial(const Rendering& r) {
-    Shown shown{Image<Color>(r.gbuffer.seen.width, r.gbuffer.seen.height, no_ink), {"the painted layer alone, on dark"}};
+    Shown shown{Image<Color>(r.gbuffer.seen.width, r.gbuffer.seen.height, no_ink),
+                {"the painted layer alone, on dark"}};
     for (std::size_t i = 0; i < r.paint.layer.color.pixels.size(); ++i)
         shown.picture.pixels[i] = as_viewed(r.paint.layer.color.pixels[i], r.settings.render) +
                                   (1 - r.paint.layer.alpha.pixels[i]) * no_ink;
@@ -211,7 +222,8 @@ void draw_heat_legend(Image<Color>& picture, int size) {
     for (int percent = 0; percent <= 30; percent += 10) {
         const std::string text = std::to_string(percent) + "%";
         const int middle = static_cast<int>(width * percent / 100.0 / hottest);
-        draw_number(picture, std::clamp(middle - number_width(text, size) / 2, 0, width - number_width(text, size)),
+        draw_number(picture,
+                    std::clamp(middle - number_width(text, size) / 2, 0, width - number_width(text, size)),
                     picture.height - height - 7 * size, text, size, Color(1));
     }
 }
@@ -226,12 +238,14 @@ Shown show_error(const Rendering& r) {
     for (const Color& c : r.rendered.layer.color.pixels) mean += static_cast<double>(luminance(c));
     mean /= static_cast<double>(std::max<std::size_t>(1, r.rendered.layer.color.pixels.size()));
     for (std::size_t i = 0; i < shown.picture.pixels.size(); ++i) {
-        const double error = std::hypot(static_cast<double>(r.error.noise.pixels[i]), static_cast<double>(r.error.bias.pixels[i]));
+        const double error = std::hypot(static_cast<double>(r.error.noise.pixels[i]),
+                                        static_cast<double>(r.error.bias.pixels[i]));
         const double light = static_cast<double>(luminance(r.rendered.layer.color.pixels[i]));
         shown.picture.pixels[i] = heat(light + 0.01 * mean > 0 ? error / (light + 0.01 * mean) / hottest : 0);
     }
     draw_heat_legend(shown.picture, digit_size(r));
-    shown.legend = {fmt::format("estimated error of the light after {} passes, relative: black 0, blue 7.5 %, red 15 %, yellow 22.5 %, "
+    shown.legend = {fmt::format("estimated error of the light after {} passes, relative: black 0, blue 7.5 "
+                                "%, red 15 %, yellow 22.5 %, "
                                 "white 30 % and more; 90 % of the pixels are below {:.2g} %",
                                 r.passes_done, 100 * r.reached_error)};
     return shown;
@@ -298,7 +312,8 @@ void look_behind(const Scene& scene, Rendering& r, const ShowNeeds& needs, const
         });
     }
     if (!r.plan.paint) return;
-    r.paint = paint(r, passes, known ? std::optional(std::move(r.paint.sparse)) : std::nullopt, needs.strokes);
+    r.paint =
+        paint(r, passes, known ? std::optional(std::move(r.paint.sparse)) : std::nullopt, needs.strokes);
 }
 
 Shown show(Show kind, const Rendering& r) {

@@ -9,9 +9,10 @@
 
 namespace pnr {
 
-// field: strokes along the orientation field, with the seeds numbered. photons: where they lie, by their path. sparse,
-// informative, partial: the maps of the painting pass. ids: each object its colour. normals: x, y, z as red, green, blue.
-// error: estimated, relative, as heat. wire: silhouettes, creases and the edges of meshes.
+// field: strokes along the orientation field, with the seeds numbered. photons: where they lie, by their
+// path. sparse, informative, partial: the maps of the painting pass. ids: each object its colour. normals: x,
+// y, z as red, green, blue. error: estimated, relative, as heat. wire: silhouettes, creases and the edges of
+// meshes.
 enum class Show { field, photons, sparse, informative, partial, ids, normals, error, wire };
 const std::vector<std::string>& show_names();
 // Throws UsageError for a kind that there is not.
@@ -28,7 +29,8 @@ ShowNeeds needs_of(const std::vector<Show>& kinds);
 
 // Takes out of a plan what the pictures do not need, and says so.
 void plan_for(const ShowNeeds& needs, Plan& plan);
-// Runs the passes that the pictures need, of a rendering that plan_rendering has made. Not of those that need all light.
+// Runs the passes that the pictures need, of a rendering that plan_rendering has made. Not of those that need
+// all light.
 void look_behind(const Scene& scene, Rendering& r, const ShowNeeds& needs, const Wishes& wishes, Reuse& reuse,
                  Passes& passes);
 

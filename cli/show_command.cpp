@@ -25,13 +25,15 @@ std::vector<fs::path> names_of(const Options& options) {
     if (names.empty()) names = {scene_stem(scene_name(options)) + ".png"};
     if (names.size() == kinds && !(options.outputs.empty())) return names;
     if (names.size() != 1)
-        throw UsageError(fmt::format("--show: {} kinds and {} pictures (-o) do not fit; one for each, or one name for all", kinds,
-                                     names.size()));
+        throw UsageError(
+            fmt::format("--show: {} kinds and {} pictures (-o) do not fit; one for each, or one name for all",
+                        kinds, names.size()));
     if (names.front() == "-") throw UsageError("--show: standard output takes one kind");
     const fs::path name = names.front();
     names.clear();
     for (const std::string& kind : options.shows)
-        names.push_back(name.parent_path() / fmt::format("{}_{}{}", name.stem().string(), kind, name.extension().string()));
+        names.push_back(name.parent_path() /
+                        fmt::format("{}_{}{}", name.stem().string(), kind, name.extension().string()));
     return names;
 }
 
@@ -53,7 +55,8 @@ Rendering look(const Options& options, const LoadResult& loaded, const ShowNeeds
     const Settings settings = merge_settings(loaded.settings, options);
     if (needs.error) {
         const bool said = options.time_s || options.error || options.passes;
-        wishes.refinement = Refinement{options.time_s, options.error, said ? options.passes : std::optional(usual_passes)};
+        wishes.refinement =
+            Refinement{options.time_s, options.error, said ? options.passes : std::optional(usual_passes)};
         return render_scene(*loaded.scene, settings, wishes, reuse, passes);
     }
     Rendering r = plan_rendering(*loaded.scene, settings, wishes, reuse, passes);
@@ -75,7 +78,8 @@ int show_frame(const Options& options, const AnimationFrame& frame) {
     for (const fs::path& name : names) check_output(name);
     Passes passes(options.progress, true);
     LoadResult loaded;
-    if (!passes.run("parse", [&](const Progress&) { return load_and_report(options, frame, loaded); })) return exit_scene;
+    if (!passes.run("parse", [&](const Progress&) { return load_and_report(options, frame, loaded); }))
+        return exit_scene;
     return with_scene_errors(loaded.sources, [&] {
         const Rendering r = look(options, loaded, needs_of(kinds), passes);
         if (r.stopped) return exit_signal + stop_signal();
@@ -84,13 +88,14 @@ int show_frame(const Options& options, const AnimationFrame& frame) {
             for (std::size_t i = 0; i < kinds.size(); ++i) {
                 const Shown shown = show(kinds[i], r);
                 write_flat_picture(cut(shown.picture, r.window), names[i]);
-                for (const std::string& line : shown.legend) legends.push_back(options.shows[i] + ": " + line);
+                for (const std::string& line : shown.legend)
+                    legends.push_back(options.shows[i] + ": " + line);
             }
         });
         for (const std::string& line : legends) print_note(line);
         if (!options.stats.empty()) {
-            const std::string text =
-                stats_json(*loaded.scene, r, passes.times(), warning_texts(loaded.diagnostics, loaded.sources));
+            const std::string text = stats_json(*loaded.scene, r, passes.times(),
+                                                warning_texts(loaded.diagnostics, loaded.sources));
             options.stats == "-" ? print_answer(text) : write_file_atomically(options.stats, text);
         }
         return exit_done + 0;

@@ -17,7 +17,8 @@ std::set<std::pair<std::uint32_t, std::uint32_t>> edges_of(const MeshData& mesh)
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
     for (const auto& t : mesh.triangles)
         for (int i = 0; i < 3; ++i) {
-            const std::uint32_t a = t[static_cast<std::size_t>(i)], b = t[static_cast<std::size_t>((i + 1) % 3)];
+            const std::uint32_t a = t[static_cast<std::size_t>(i)],
+                                b = t[static_cast<std::size_t>((i + 1) % 3)];
             edges.insert({std::min(a, b), std::max(a, b)});
         }
     return edges;
@@ -33,7 +34,8 @@ void draw_edge(Image<Color>& picture, const Rendering& r, Vec3 a, Vec3 b, Color 
     for (int i = 0; i <= steps; ++i) {
         const auto at = project(r.gbuffer.view, a + (b - a) * (static_cast<double>(i) / steps));
         if (!at) continue;
-        const int x = static_cast<int>(std::floor(at->pixel.x)), y = static_cast<int>(std::floor(at->pixel.y));
+        const int x = static_cast<int>(std::floor(at->pixel.x)),
+                  y = static_cast<int>(std::floor(at->pixel.y));
         if (!picture.contains(x, y)) continue;
         const Seen& seen = r.gbuffer.seen.at(x, y);
         const double depth = static_cast<double>(seen.via == 0 ? seen.z : seen.z_specular);
@@ -41,8 +43,8 @@ void draw_edge(Image<Color>& picture, const Rendering& r, Vec3 a, Vec3 b, Color 
     }
 }
 
-// Between neighbours: other things, or the same one far behind itself, are silhouettes; a turn of more than 40 degrees is
-// a crease.
+// Between neighbours: other things, or the same one far behind itself, are silhouettes; a turn of more than
+// 40 degrees is a crease.
 enum class Border { none, crease, silhouette };
 Border border(const Seen& a, const Seen& b) {
     if (a.object != b.object || a.via != b.via) return Border::silhouette;
@@ -57,7 +59,8 @@ Border border(const Seen& a, const Seen& b) {
 } // namespace
 
 Image<Color> draw_wire(Image<Color> picture, const Rendering& r) {
-    const Color edge = displayed(0.45f, 0.65f, 1), crease = displayed(0.7f, 0.7f, 0.7f), silhouette = displayed(1, 1, 1);
+    const Color edge = displayed(0.45f, 0.65f, 1), crease = displayed(0.7f, 0.7f, 0.7f),
+                silhouette = displayed(1, 1, 1);
     for (const GeometryItem& item : geometry_items(*r.world.geometry)) {
         const auto* shape = std::get_if<Shape>(&item.form);
         const Mesh* mesh = shape ? std::get_if<Mesh>(shape) : nullptr;

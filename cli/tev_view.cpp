@@ -55,7 +55,8 @@ private:
 // A viewer that does not take what is sent must not hold a rendering up for long.
 void limit_waiting(int socket) {
     const timeval longest{3, 0};
-    ::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &longest, sizeof longest); // connecting waits no longer either
+    ::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &longest,
+                 sizeof longest); // connecting waits no longer either
 }
 
 // -1 and errno if nobody answers.
@@ -85,13 +86,19 @@ struct LayerOf {
     const char* name;
     RenderedPart part; // with which it is finished
 };
-constexpr LayerOf layers[] = {{"", RenderedPart::light},       {"photoreal", RenderedPart::light},
-                              {"N", RenderedPart::seen},       {"P", RenderedPart::seen},
-                              {"Z", RenderedPart::seen},       {"id", RenderedPart::seen},
-                              {"npr.mask", RenderedPart::seen}, {"sparse", RenderedPart::paint},
-                              {"informative", RenderedPart::paint}, {"partial", RenderedPart::paint}};
+constexpr LayerOf layers[] = {{"", RenderedPart::light},
+                              {"photoreal", RenderedPart::light},
+                              {"N", RenderedPart::seen},
+                              {"P", RenderedPart::seen},
+                              {"Z", RenderedPart::seen},
+                              {"id", RenderedPart::seen},
+                              {"npr.mask", RenderedPart::seen},
+                              {"sparse", RenderedPart::paint},
+                              {"informative", RenderedPart::paint},
+                              {"partial", RenderedPart::paint}};
 
-// Colour and alpha of what there is of these layers, added up: pixels whose light is not found yet have their paint alone.
+// Colour and alpha of what there is of these layers, added up: pixels whose light is not found yet have their
+// paint alone.
 std::vector<float> sum_of(std::initializer_list<const Layer*> all, const PixelRect& where) {
     std::vector<float> data;
     for (int y = where.y0; y < where.y1; ++y)
@@ -114,10 +121,12 @@ std::vector<std::string> channels_of(const std::string& layer) {
     if (layer == "Z" || layer == "npr.mask") return {layer};
     if (layer == "id") return {"id.object", "id.via"};
     if (layer == "sparse")
-        return {"sparse.R", "sparse.G", "sparse.B", "sparse.dir.X", "sparse.dir.Y", "sparse.Z", "sparse.id.object", "sparse.id.via", "sparse.source"};
+        return {"sparse.R", "sparse.G",         "sparse.B",      "sparse.dir.X", "sparse.dir.Y",
+                "sparse.Z", "sparse.id.object", "sparse.id.via", "sparse.source"};
     if (layer == "informative")
-        return {"informative.R", "informative.G", "informative.B", "informative.dir.X", "informative.dir.Y",
-                "informative.id.object", "informative.id.via", "informative.coverage", "informative.kind"};
+        return {"informative.R",      "informative.G",        "informative.B",
+                "informative.dir.X",  "informative.dir.Y",    "informative.id.object",
+                "informative.id.via", "informative.coverage", "informative.kind"};
     return {layer + ".R", layer + ".G", layer + ".B", layer + ".A"};
 }
 
@@ -136,7 +145,8 @@ TevPacket tev_close(const std::string& image) {
     return packet.done();
 }
 
-TevPacket tev_create(const std::string& image, int width, int height, const std::vector<std::string>& channels) {
+TevPacket tev_create(const std::string& image, int width, int height,
+                     const std::vector<std::string>& channels) {
     PacketWriter packet(Kind::create_image);
     packet.add(true);
     packet.add_text(image);
@@ -147,14 +157,15 @@ TevPacket tev_create(const std::string& image, int width, int height, const std:
     return packet.done();
 }
 
-TevPacket tev_update(const std::string& image, const std::vector<std::string>& channels, const PixelRect& where,
-                     const std::vector<float>& data) {
+TevPacket tev_update(const std::string& image, const std::vector<std::string>& channels,
+                     const PixelRect& where, const std::vector<float>& data) {
     PacketWriter packet(Kind::update_image);
     packet.add(false);
     packet.add_text(image);
     packet.add(static_cast<std::int32_t>(channels.size()));
     for (const std::string& channel : channels) packet.add_text(channel);
-    for (const int number : {where.x0, where.y0, where.x1 - where.x0, where.y1 - where.y0}) packet.add(std::int32_t{number});
+    for (const int number : {where.x0, where.y0, where.x1 - where.x0, where.y1 - where.y0})
+        packet.add(std::int32_t{number});
     for (std::size_t i = 0; i < channels.size(); ++i) packet.add(static_cast<std::int64_t>(i));
     for (std::size_t i = 0; i < channels.size(); ++i) packet.add(static_cast<std::int64_t>(channels.size()));
     packet.add_floats(data);
@@ -165,7 +176,8 @@ TevView::TevView(const std::string& place, std::string image) : place_(place), i
     const std::size_t colon = place.rfind(':');
     socket_ = connect_to(place.substr(0, colon), place.substr(colon + 1));
     if (socket_ < 0)
-        print_warning(fmt::format("--tev: no viewer answers at {} ({}); the picture is made without it", place, std::strerror(errno)));
+        print_warning(fmt::format("--tev: no viewer answers at {} ({}); the picture is made without it",
+                                  place, std::strerror(errno)));
 }
 
 TevView::~TevView() {
@@ -175,10 +187,13 @@ TevView::~TevView() {
 void TevView::send(const TevPacket& packet) {
     std::size_t done = 0;
     while (socket_ >= 0 && done < packet.bytes.size()) {
-        const ssize_t sent = ::send(socket_, packet.bytes.data() + done, packet.bytes.size() - done, MSG_NOSIGNAL);
+        const ssize_t sent =
+            ::send(socket_, packet.bytes.data() + done, packet.bytes.size() - done, MSG_NOSIGNAL);
         if (sent < 0 && errno == EINTR) continue;
         if (sent <= 0) {
-            print_warning(fmt::format("--tev: the viewer at {} went away ({}); the picture is made without it", place_, std::strerror(errno)));
+            print_warning(
+                fmt::format("--tev: the viewer at {} went away ({}); the picture is made without it", place_,
+                            std::strerror(errno)));
             ::close(socket_);
             socket_ = -1;
             return;
@@ -206,7 +221,9 @@ void TevView::send_part(const Rendering& r, const std::string& layer, const Pixe
     const std::size_t row = static_cast<std::size_t>(where.x1 - where.x0) * channels.size();
     for (int y = where.y0; y < where.y1 && socket_ >= 0; y += rows) {
         const PixelRect band{where.x0, y, where.x1, std::min(y + rows, where.y1)};
-        const auto at = [&](int line) { return all.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(line - where.y0) * row); };
+        const auto at = [&](int line) {
+            return all.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(line - where.y0) * row);
+        };
         send(tev_update(image_, channels, band, {at(band.y0), at(band.y1)}));
     }
 }
@@ -219,9 +236,12 @@ void TevView::show(const Rendering& r, RenderedPart part, const PixelRect& where
     if (part == RenderedPart::paint) send_part(r, "", where);
 }
 
-std::function<void(const Rendering&, RenderedPart, const PixelRect&)> viewer_of(std::optional<TevView>& viewer) {
+std::function<void(const Rendering&, RenderedPart, const PixelRect&)>
+viewer_of(std::optional<TevView>& viewer) {
     if (!viewer) return {};
-    return [&viewer](const Rendering& r, RenderedPart part, const PixelRect& where) { viewer->show(r, part, where); };
+    return [&viewer](const Rendering& r, RenderedPart part, const PixelRect& where) {
+        viewer->show(r, part, where);
+    };
 }
 
 } // namespace pnr

@@ -30,7 +30,9 @@ struct Last {
     ReuseKeys keys;
 };
 
-bool same_files(const SceneIdentity& a, const SceneIdentity& b) { return a.assets.hash == b.assets.hash && a.assets.hash != 0; }
+bool same_files(const SceneIdentity& a, const SceneIdentity& b) {
+    return a.assets.hash == b.assets.hash && a.assets.hash != 0;
+}
 
 // Comments, spaces, names: what stays the same picture.
 bool nothing_seen_changed(const Last& last, const SceneIdentity& scene) {
@@ -69,14 +71,15 @@ private:
 void write_outputs(const Scene& scene, const Rendering& r, const Options& options,
                    const std::vector<fs::path>& pictures, Passes& passes) {
     passes.run("write", [&](const Progress&) {
-        for (const fs::path& picture : pictures) write_picture(scene, r, options.aovs, passes.times(), picture);
+        for (const fs::path& picture : pictures)
+            write_picture(scene, r, options.aovs, passes.times(), picture);
         if (!options.maps.empty()) write_maps(r, options.maps);
     });
 }
 
 // One picture of the scene as it is now. What a later one can use stays in `reuse`.
-void paint_once(const Options& options, const std::vector<fs::path>& pictures, LoadResult& loaded, const WatchedFiles& watched,
-                Reuse& reuse, Last& last, std::optional<TevView>& viewer) {
+void paint_once(const Options& options, const std::vector<fs::path>& pictures, LoadResult& loaded,
+                const WatchedFiles& watched, Reuse& reuse, Last& last, std::optional<TevView>& viewer) {
     const double began = Passes::elapsed();
     SceneIdentity scene = identity_of(loaded);
     if (nothing_seen_changed(last, scene)) {
@@ -85,8 +88,9 @@ void paint_once(const Options& options, const std::vector<fs::path>& pictures, L
     }
     reuse.scene = scene;
     Passes passes(options.progress, !last.any);
-    const Wishes wishes{options.crop, !options.maps.empty(), wants_light_parts(options.aovs), {}, {}, {}, {}, options.budgets, {},
-                        viewer_of(viewer)};
+    const Wishes wishes{
+        options.crop, !options.maps.empty(), wants_light_parts(options.aovs), {}, {}, {}, {}, options.budgets,
+        {},           viewer_of(viewer)};
     Rendering r = [&] {
         const StopOnChange stop(watched, passes);
         return render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, reuse, passes);
@@ -94,8 +98,8 @@ void paint_once(const Options& options, const std::vector<fs::path>& pictures, L
     if (!r.stopped) {
         const std::string why = what_changed(last, reuse.keys, r.plan.paint);
         write_outputs(*loaded.scene, r, options, pictures, passes);
-        print_note(fmt::format("{} after {:.2f} s; {}: {}", pictures.front().string(), Passes::elapsed() - began, why,
-                               one_line(passes_to_run(r, wishes))));
+        print_note(fmt::format("{} after {:.2f} s; {}: {}", pictures.front().string(),
+                               Passes::elapsed() - began, why, one_line(passes_to_run(r, wishes))));
         last = {true, std::move(scene), reuse.keys};
         if (reuse.disk) store_on_disk(reuse, r);
     } else if (stop_signal() == 0) {
@@ -110,8 +114,9 @@ int run_watch(const Options& options) {
     check_aovs(options.aovs);
     const fs::path scene = scene_name(options);
     if (scene == "-") throw UsageError("watch reads a file again and again, - is none");
-    const std::vector<fs::path> pictures =
-        options.outputs.empty() ? std::vector<fs::path>{scene_stem(scene.string()) + ".png"} : options.outputs;
+    const std::vector<fs::path> pictures = options.outputs.empty()
+                                               ? std::vector<fs::path>{scene_stem(scene.string()) + ".png"}
+                                               : options.outputs;
     for (const fs::path& picture : pictures) {
         if (picture == "-") throw UsageError("watch writes a file again and again, - is none");
         check_output(picture);
@@ -140,7 +145,8 @@ int run_watch(const Options& options) {
         } catch (const FileError& error) { // the scene's own file is away, or the picture cannot be written
             print_error(error.what());
         }
-        print_note(fmt::format("watching {} and {} more files; Ctrl-C ends", scene.string(), files.size() - 1));
+        print_note(
+            fmt::format("watching {} and {} more files; Ctrl-C ends", scene.string(), files.size() - 1));
         wait_for_change(watched, [] { return stop_signal() != 0; });
     }
     return exit_signal + stop_signal();

@@ -11,20 +11,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Looking is cheap, a few calls of stat, and works on every file system, which notices of the kernel's do not.
+// Looking is cheap, a few calls of stat, and works on every file system, which notices of the kernel's do
+// not.
 constexpr auto pause = std::chrono::milliseconds(15);
 
 bool is_there(const FileStamp& stamp) { return stamp.written_ns != 0; }
 
 } // namespace
 
-std::vector<fs::path> files_of_scene(const fs::path& scene, const LoadResult& loaded, const std::vector<fs::path>& library) {
+std::vector<fs::path> files_of_scene(const fs::path& scene, const LoadResult& loaded,
+                                     const std::vector<fs::path>& library) {
     std::vector<fs::path> files{scene};
     const auto add = [&](const fs::path& file) {
         std::error_code error;
-        if (fs::exists(file, error) && std::find(files.begin(), files.end(), file) == files.end()) files.push_back(file);
+        if (fs::exists(file, error) && std::find(files.begin(), files.end(), file) == files.end())
+            files.push_back(file);
     };
-    for (const SourceText& source : loaded.sources.files) add(source.path); // -D and our own includes are no files
+    for (const SourceText& source : loaded.sources.files)
+        add(source.path); // -D and our own includes are no files
     for (const fs::path& file : files_behind(loaded.assets)) add(file);
     if (loaded.scene) return files;
     add(scene.has_parent_path() ? scene.parent_path() : fs::path("."));

@@ -18,8 +18,8 @@ namespace {
 using Words = std::vector<std::string>;
 using Bytes = std::array<int, 3>;
 
-// 2 x 2 seen in 100 x 100 pixels from the front: a painted ball of radius 0.4 at the left, a mesh's square of 0.8 at the
-// right, nothing above 0.4.
+// 2 x 2 seen in 100 x 100 pixels from the front: a painted ball of radius 0.4 at the left, a mesh's square of
+// 0.8 at the right, nothing above 0.4.
 const char* const scene = R"(camera { orthographic location <0, 0, -5> look_at 0 right 2*x up 2*y }
 global_settings { photons { count 200000 } }
 light_source { <0, 1, -9>, rgb 1 emitter { sphere 0.5 } power 3000 }
@@ -30,7 +30,8 @@ mesh { triangle { <0.1, -0.4, 0>, <0.9, -0.4, 0>, <0.9, 0.4, 0> } triangle { <0.
 )";
 
 Bytes bytes_of(Color c) {
-    return {static_cast<int>(std::lround(255 * srgb_encode(c.x))), static_cast<int>(std::lround(255 * srgb_encode(c.y))),
+    return {static_cast<int>(std::lround(255 * srgb_encode(c.x))),
+            static_cast<int>(std::lround(255 * srgb_encode(c.y))),
             static_cast<int>(std::lround(255 * srgb_encode(c.z)))};
 }
 
@@ -48,7 +49,8 @@ struct Picture {
 
 Ran show_kinds(const TemporaryFolder& folder, const std::string& kinds, const Words& more = {}) {
     folder.write("a.pnr", scene);
-    Words words{"render", "a.pnr", "-W", "100", "-H", "100", "--show", kinds, "--progress", "off", "--stats", "stats.json"};
+    Words words{"render", "a.pnr", "-W",         "100", "-H",      "100",
+                "--show", kinds,   "--progress", "off", "--stats", "stats.json"};
     words.insert(words.end(), more.begin(), more.end());
     return run_pnr(folder, words);
 }
@@ -72,7 +74,8 @@ TEST(Show, IdsHaveTheirColours) {
     EXPECT_NEAR(picture.count(bytes_of(number_color(2))), 1600, 90);
     EXPECT_NE(ran.err.find("ids: object 1 #"), std::string::npos) << ran.err;
     EXPECT_NE(ran.err.find("sphere a.pnr:4:1, painted"), std::string::npos) << ran.err;
-    for (const char* pass : {"photons", "kdtree", "sparse", "ilic", "render"}) EXPECT_EQ(cpu_of(folder, pass), 0) << pass;
+    for (const char* pass : {"photons", "kdtree", "sparse", "ilic", "render"})
+        EXPECT_EQ(cpu_of(folder, pass), 0) << pass;
     EXPECT_NE(folder.read("stats.json").find("what is shown does not need it"), std::string::npos);
 }
 
@@ -84,7 +87,8 @@ TEST(Show, NormalsAreTheSphere) {
         const double nx = ((x + 0.5) / 50 - 1 + 0.5) / 0.4, ny = (1 - (y + 0.5) / 50) / 0.4;
         const double nz = -std::sqrt(1 - nx * nx - ny * ny);
         const double n[] = {nx, ny, nz};
-        for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(picture.at(x, y)[c], 255 * (0.5 + 0.5 * n[c]), 1.01) << x << " " << y;
+        for (std::size_t c = 0; c < 3; ++c)
+            EXPECT_NEAR(picture.at(x, y)[c], 255 * (0.5 + 0.5 * n[c]), 1.01) << x << " " << y;
     }
     EXPECT_EQ(picture.at(75, 50), (Bytes{128, 128, 0})); // flat, towards the viewer
 }
@@ -107,8 +111,11 @@ TEST(Show, FieldHasStrokesAlongItAndNumberedSeeds) {
     const TemporaryFolder folder;
     const Ran ran = show_kinds(folder, "field", {"-o", "f.png"});
     ASSERT_EQ(ran.code, 0) << ran.err;
-    EXPECT_NE(ran.err.find("field: seed 1 a.pnr:5:24 of object 1 at <-0.5, 0, -0.4>\n"), std::string::npos) << ran.err;
-    EXPECT_NE(ran.err.find("field: seed 2 a.pnr:5:52 of object 1 at <-0.5, 0, 0.4>, not seen\n"), std::string::npos) << ran.err;
+    EXPECT_NE(ran.err.find("field: seed 1 a.pnr:5:24 of object 1 at <-0.5, 0, -0.4>\n"), std::string::npos)
+        << ran.err;
+    EXPECT_NE(ran.err.find("field: seed 2 a.pnr:5:52 of object 1 at <-0.5, 0, 0.4>, not seen\n"),
+              std::string::npos)
+        << ran.err;
     // Strokes of a field along x are rows; between them the ground stays.
     const Picture picture(folder / "f.png");
     const Bytes stroke = bytes_of(displayed(0.75f, 0.9f, 1));
@@ -132,7 +139,7 @@ TEST(Show, WireHasSilhouettesAndEdges) {
     EXPECT_NEAR(picture.count(white), 2 * pi * 20 + 160, 60);
     EXPECT_TRUE(picture.at(5, 50) == white || picture.at(4, 50) == white); // the ball's left end
     const Bytes blue = bytes_of(displayed(0.45f, 0.65f, 1));
-    EXPECT_EQ(picture.at(75, 49), blue); // the diagonal from <0.1, -0.4> to <0.9, 0.4>
+    EXPECT_EQ(picture.at(75, 49), blue);       // the diagonal from <0.1, -0.4> to <0.9, 0.4>
     EXPECT_NEAR(picture.count(blue), 120, 12); // and the two sides whose silhouette lies outside
 }
 
@@ -141,7 +148,8 @@ TEST(Show, MapsOfThePainting) {
     const Ran ran = show_kinds(folder, "sparse,informative,partial", {"-o", "m.png"});
     ASSERT_EQ(ran.code, 0) << ran.err;
     const nlohmann::json stats = nlohmann::json::parse(folder.read("stats.json"));
-    EXPECT_NE(ran.err.find(std::to_string(stats["npr"]["source_pixels"].get<int>()) + " source photons"), std::string::npos);
+    EXPECT_NE(ran.err.find(std::to_string(stats["npr"]["source_pixels"].get<int>()) + " source photons"),
+              std::string::npos);
     for (const char* name : {"m_informative.png", "m_partial.png"}) {
         const Picture picture(folder / name);
         const Bytes ball = picture.at(25, 50), ground = picture.at(75, 50);

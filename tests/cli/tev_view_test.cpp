@@ -41,7 +41,8 @@ struct PacketReader {
 
 TEST(TevPacket, HasTheDocumentedLayout) {
     const TevPacket create = tev_create("a", 5, 4, {"R", "Z"});
-    const unsigned char wanted[] = {24, 0, 0, 0, 4, 1, 'a', 0, 5, 0, 0, 0, 4, 0, 0, 0, 2, 0, 0, 0, 'R', 0, 'Z', 0};
+    const unsigned char wanted[] = {24, 0, 0, 0, 4, 1, 'a', 0, 5,   0, 0,   0,
+                                    4,  0, 0, 0, 2, 0, 0,   0, 'R', 0, 'Z', 0};
     ASSERT_EQ(create.bytes.size(), sizeof wanted);
     EXPECT_EQ(create.bytes[0], sizeof wanted);
     EXPECT_TRUE(std::equal(create.bytes.begin() + 1, create.bytes.end(), std::begin(wanted) + 1));
@@ -73,7 +74,8 @@ public:
         sockaddr_in address{};
         address.sin_family = AF_INET;
         address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        if (::bind(listener_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0 || ::listen(listener_, 1) != 0)
+        if (::bind(listener_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0 ||
+            ::listen(listener_, 1) != 0)
             throw std::runtime_error("cannot listen");
         socklen_t size = sizeof address;
         ::getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size);
@@ -140,7 +142,8 @@ private:
         EXPECT_EQ(in.text(), name);
         std::vector<std::string> names(static_cast<std::size_t>(in.take<std::int32_t>()));
         for (std::string& each : names) each = in.text();
-        const int x = in.take<std::int32_t>(), y = in.take<std::int32_t>(), w = in.take<std::int32_t>(), h = in.take<std::int32_t>();
+        const int x = in.take<std::int32_t>(), y = in.take<std::int32_t>(), w = in.take<std::int32_t>(),
+                  h = in.take<std::int32_t>();
         std::vector<std::int64_t> offsets(names.size()), strides(names.size());
         for (auto& offset : offsets) offset = in.take<std::int64_t>();
         for (auto& stride : strides) stride = in.take<std::int64_t>();
@@ -161,7 +164,8 @@ ViewerImage image_of(const std::vector<unsigned char>& bytes) {
         std::uint32_t length = 0;
         std::memcpy(&length, bytes.data() + at, 4);
         if (length < 5 || at + length > bytes.size()) throw std::runtime_error("a packet is cut short");
-        image.take({bytes.begin() + static_cast<std::ptrdiff_t>(at), bytes.begin() + static_cast<std::ptrdiff_t>(at + length)});
+        image.take({bytes.begin() + static_cast<std::ptrdiff_t>(at),
+                    bytes.begin() + static_cast<std::ptrdiff_t>(at + length)});
         at += length;
     }
     return image;
@@ -179,7 +183,8 @@ TEST(Tev, ShowsThePictureAndEveryMap) {
     const TemporaryFolder folder;
     folder.write("a.pnr", box_scene("global_settings { photons { count 4000 } }\n"));
     Viewer viewer;
-    const Ran ran = run_pnr(folder, with({"-o", "seen.png", "-o", "seen.exr", "--maps", "maps", "--tev", viewer.place()}));
+    const Ran ran = run_pnr(
+        folder, with({"-o", "seen.png", "-o", "seen.exr", "--maps", "maps", "--tev", viewer.place()}));
     ASSERT_EQ(ran.code, 0) << ran.err;
     EXPECT_EQ(ran.err.find("warning"), std::string::npos) << ran.err;
     const ViewerImage image = image_of(viewer.bytes());
@@ -188,13 +193,17 @@ TEST(Tev, ShowsThePictureAndEveryMap) {
     EXPECT_EQ(image.width, 48);
     EXPECT_EQ(image.height, 70);
     EXPECT_GT(image.updates, 10); // the light came in bands
-    const auto expect_same = [&](const std::string& file, const std::string& channel, const std::string& shown) {
+    const auto expect_same = [&](const std::string& file, const std::string& channel,
+                                 const std::string& shown) {
         const ImagePart part = read_exr(folder / file).parts.at(0);
-        const auto c = static_cast<std::size_t>(std::find(part.channel_names.begin(), part.channel_names.end(), channel) - part.channel_names.begin());
+        const auto c = static_cast<std::size_t>(
+            std::find(part.channel_names.begin(), part.channel_names.end(), channel) -
+            part.channel_names.begin());
         ASSERT_LT(c, part.channel_names.size()) << channel;
         ASSERT_TRUE(image.channels.contains(shown)) << shown;
         for (std::size_t i = 0; i < 48 * 70; ++i)
-            ASSERT_EQ(image.channels.at(shown)[i], part.data[i * part.channel_names.size() + c]) << file << " " << channel << " " << i;
+            ASSERT_EQ(image.channels.at(shown)[i], part.data[i * part.channel_names.size() + c])
+                << file << " " << channel << " " << i;
     };
     expect_same("maps/gbuffer.exr", "N.X", "N.X");
     expect_same("maps/gbuffer.exr", "P.Y", "P.Y");

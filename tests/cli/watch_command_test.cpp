@@ -23,7 +23,8 @@ const char* const scene = "#include \"ball.inc\"\n"
 void write_all(const TemporaryFolder& folder) {
     folder.write("a.pnr", scene);
     folder.write("ball.inc", "#declare Ball = sphere { <0, 0.6, 0>, 0.6 pigment { rgb <0.9, 0.6, 0.3> } }\n");
-    folder.write("tri.off", "OFF\n4 4 0\n0 0 0\n0.4 0 0\n0 0.4 0\n0 0 0.4\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    folder.write("tri.off",
+                 "OFF\n4 4 0\n0 0 0\n0.4 0 0\n0 0.4 0\n0 0 0.4\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
 }
 
 std::string changed(const std::string& from, const std::string& to) {
@@ -48,7 +49,8 @@ TEST(Watch, RunsJustThePassesThatAChangeNeeds) {
     const TemporaryFolder folder;
     write_all(folder);
     RunningPnr pnr(folder, words);
-    ASSERT_TRUE(pnr.says("the first picture: parse build photons kdtree gbuffer sparse orient informative ilic render write"))
+    ASSERT_TRUE(pnr.says(
+        "the first picture: parse build photons kdtree gbuffer sparse orient informative ilic render write"))
         << pnr.said();
     ASSERT_TRUE(pnr.says("watching a.pnr and 2 more files")) << pnr.said();
     EXPECT_EQ(folder.read("a.png"), fresh(folder));
@@ -64,7 +66,8 @@ TEST(Watch, RunsJustThePassesThatAChangeNeeds) {
     ASSERT_TRUE(pnr.says("watching")) << pnr.said();
 
     save_by_renaming(folder, "a.pnr", changed("angle 40", "angle 44"));
-    ASSERT_TRUE(pnr.says("only the camera has changed: parse build kdtree gbuffer sparse orient informative ilic render write"))
+    ASSERT_TRUE(pnr.says("only the camera has changed: parse build kdtree gbuffer sparse orient informative "
+                         "ilic render write"))
         << pnr.said();
     ASSERT_TRUE(pnr.says("watching")) << pnr.said();
     EXPECT_EQ(folder.read("a.png"), fresh(folder));
@@ -75,12 +78,15 @@ TEST(Watch, RunsJustThePassesThatAChangeNeeds) {
     EXPECT_EQ(folder.read("a.png"), fresh(folder));
 
     folder.write("ball.inc", "#declare Ball = sphere { <0, 0.6, 0>, 0.5 pigment { rgb <0.9, 0.6, 0.3> } }\n");
-    ASSERT_TRUE(pnr.says("light, objects or settings have changed: parse build photons kdtree gbuffer")) << pnr.said();
+    ASSERT_TRUE(pnr.says("light, objects or settings have changed: parse build photons kdtree gbuffer"))
+        << pnr.said();
     ASSERT_TRUE(pnr.says("watching")) << pnr.said();
     EXPECT_EQ(folder.read("a.png"), fresh(folder));
 
-    folder.write("tri.off", "OFF\n4 4 0\n0 0 0\n0.4 0 0\n0 0.4 0\n0 0 0.6\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
-    ASSERT_TRUE(pnr.says("light, objects or settings have changed: parse build photons kdtree gbuffer")) << pnr.said();
+    folder.write("tri.off",
+                 "OFF\n4 4 0\n0 0 0\n0.4 0 0\n0 0.4 0\n0 0 0.6\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    ASSERT_TRUE(pnr.says("light, objects or settings have changed: parse build photons kdtree gbuffer"))
+        << pnr.said();
     ASSERT_TRUE(pnr.says("watching")) << pnr.said();
     EXPECT_EQ(folder.read("a.png"), fresh(folder));
 
@@ -107,7 +113,8 @@ TEST(Watch, ShowsErrorsAndGoesOn) {
     ASSERT_TRUE(pnr.says("a.pnr:1:10: error: ")) << pnr.said();
     ASSERT_TRUE(pnr.says("watching")) << pnr.said();
     EXPECT_EQ(folder.read("a.png"), first);
-    folder.write("ball2.inc", "#declare Ball = sphere { <0, 0.6, 0>, 0.4 pigment { rgb <0.9, 0.6, 0.3> } }\n");
+    folder.write("ball2.inc",
+                 "#declare Ball = sphere { <0, 0.6, 0>, 0.4 pigment { rgb <0.9, 0.6, 0.3> } }\n");
     ASSERT_TRUE(pnr.says("light, objects or settings have changed")) << pnr.said();
     ASSERT_TRUE(pnr.says("watching")) << pnr.said();
     EXPECT_EQ(folder.read("a.png"), fresh(folder));
