@@ -73,7 +73,7 @@ void refine(Rendering& r, const Wishes& wishes, Passes& passes) {
             prepare_pass(r, step, settings, pass, map, passes);
             result = passes.run("render", [&](const Progress& progress) {
                 return render(r.world, r.gbuffer, *map.now, settings, r.window, wishes.light_parts, progress,
-                              step.samples);
+                              samples_of(step, r.progressive));
             });
         } catch (const Interrupted&) {
             if (pass == 0) throw;
