@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/commands.h"
 
+#include "cli/identity.h"
 #include "cli/interrupt.h"
 #include "cli/load.h"
 #include "cli/pipeline.h"
@@ -42,8 +43,13 @@ int run_plan(const Options& options) {
     LoadResult loaded;
     if (!load_and_report(options, {}, loaded)) return exit_scene;
     return with_scene_errors(loaded.sources, [&] {
-        const Settings settings = merge_settings(loaded.settings, options);
-        const Plan plan = make_plan(build_world(*loaded.scene, settings), settings, false);
+        Reuse reuse;
+        reuse.scene = identity_of(loaded);
+        if (options.cache) reuse.disk = users_cache();
+        Passes passes(ProgressMode::off, true);
+        Rendering r = plan_rendering(*loaded.scene, merge_settings(loaded.settings, options), {}, reuse, passes);
+        note_stored(reuse, r);
+        const Plan& plan = r.plan;
         print_answer(options.format == TextFormat::json ? plan_json(plan) : plan_text(plan));
         return exit_done;
     });
@@ -53,6 +59,7 @@ int run_plan(const Options& options) {
 
 int run_program(const std::vector<std::string>& arguments) {
     install_signal_handlers();
+    build_identity(); // before modules are loaded
     try {
         const CommandLine line = parse_command_line(arguments);
         if (!line.answer.empty()) {

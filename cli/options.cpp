@@ -199,6 +199,7 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
         ->type_name("FILE");
     add_progress(app, progress);
     app.add_flag("--no-prune", words.no_prune, "Run every pass and structure, needed or not");
+    add_cache(app, options);
     auto* skip = app.add_flag("--skip-existing", options.skip_existing,
                               "Do nothing if the pictures are there already");
     app.add_flag("--no-overwrite", options.no_overwrite, "Refuse to replace a picture")->excludes(skip);
@@ -236,6 +237,7 @@ void add_others(CLI::App& parent, Options& options, Words& words, std::optional<
     add_scene_options(plan, options, words);
     add_choice(plan, "--format", format, formats, "How to print the plan");
     plan.add_flag("--no-prune", words.no_prune, "The plan when nothing is left out");
+    add_cache(plan, options);
     plan.footer("Examples:\n  pnr plan pot.pnr\n  pnr plan pot.pnr --format json");
 
     CLI::App& pick = *parent.add_subcommand("pick", "Say what is seen at a pixel, and a seed line for it");

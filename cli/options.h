@@ -68,6 +68,7 @@ struct Options {
     ProgressMode progress = ProgressMode::automatic;
     bool prune = true, skip_existing = false, no_overwrite = false, werror = false;
     TextFormat format = TextFormat::text;
+    bool cache = true;       // results of earlier runs may be used again, and are kept
     bool check_only = false; // fmt: write nothing
     IlicOptions ilic;
     std::array<int, 2> at{}; // pick: pixels

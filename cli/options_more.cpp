@@ -7,6 +7,11 @@
 
 namespace pnr {
 
+void add_cache(CLI::App& app, Options& options) {
+    app.add_flag_callback("--no-cache", [&options] { options.cache = false; },
+                          "Use no results of earlier runs and keep none; the picture is the same");
+}
+
 void add_fmt(CLI::App& parent, Options& options) {
     CLI::App& app = *parent.add_subcommand("fmt", "Lay scene texts out: indentation, spaces, empty lines");
     app.add_option("FILE", options.scenes, "Scenes and includes, replaced by what comes out; - or none: standard input to output");

@@ -12,6 +12,9 @@ class App;
 
 namespace pnr {
 
+// --no-cache, of commands that render.
+void add_cache(CLI::App& app, Options& options);
+
 void add_fmt(CLI::App& parent, Options& options);
 void add_init(CLI::App& parent, Options& options);
 void add_lsp(CLI::App& parent, Options& options);

@@ -43,9 +43,12 @@ PhotonMap first_photons(const Scene& scene, const Rendering& r, const Wishes& wi
         });
         if (field) add_field(r, r.settings, 1, map, passes);
     }
-    if (!wishes.save_photons.empty())
-        passes.run("write", [&](const Progress&) { save_photons(map, scene.hash, wishes.save_photons); });
     return map;
+}
+
+void save_if_asked(const Scene& scene, const Rendering& r, const Wishes& wishes, Passes& passes) {
+    if (wishes.save_photons.empty()) return;
+    passes.run("write", [&](const Progress&) { save_photons(r.photons, scene.hash, wishes.save_photons); });
 }
 
 } // namespace
@@ -74,10 +77,10 @@ void add_field(const Rendering& r, const Settings& settings, double shrink, Phot
     });
 }
 
-PaintResult paint(const Rendering& r, Passes& passes) {
+PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> sources) {
     PaintResult p;
     const std::uint64_t seed = r.settings.render.seed;
-    p.sparse = passes.run("sparse", [&](const Progress& progress) {
+    p.sparse = sources ? std::move(*sources) : passes.run("sparse", [&](const Progress& progress) {
         return make_sparse_map(r.world, r.gbuffer, r.photons, r.settings, progress);
     });
     passes.run("orient", [&](const Progress& progress) {
@@ -144,49 +147,56 @@ void check_picture(const PictureSize& size, const Budgets& budgets) {
                                  size.width, size.height, budgets.pixels, pixels));
 }
 
-// Where the photons will be sent, if they are not too many.
-Focus check_photons(const Scene& scene, const World& world, const Settings& settings, const Budgets& budgets) {
-    const EmissionPlan plan = plan_emission(world, settings.photons);
-    const std::int64_t count = plan.count;
-    if (count <= budgets.photons) return plan.focus;
+void check_photons(const Scene& scene, const World& world, const Settings& settings, const Budgets& budgets) {
+    const std::int64_t count = plan_emission(world, settings.photons).count;
+    if (count <= budgets.photons) return;
     throw SceneError({scene.file, 0, 0},
                      fmt::format("{} photons are asked for, more than the {} that are allowed; say a smaller `count` or "
                                  "a larger `spacing`, or `--limit photons={}`",
                                  count, budgets.photons, count));
 }
 
-bool same(const Focus& a, const Focus& b) { return a.center == b.center && a.radius == b.radius; }
-
-// Only the camera may have moved since the map was made. Where planes are endless, photons fall about the first
-// camera too: a later one must stand in their midst.
-bool still_holds(const KeptPhotons& kept, std::uint64_t world_hash, const Rendering& r) {
-    if (!kept.valid || kept.world != world_hash || kept.normals != r.plan.normals) return false;
-    const PhotonSettings &a = kept.settings.photons, &b = r.settings.photons;
-    if (kept.settings.render.seed != r.settings.render.seed || a.count != b.count || a.spacing != b.spacing) return false;
-    return glm::distance(r.world.camera.location, kept.focus.center) <= kept.focus.radius ||
-           same(kept.focus, plan_emission(r.world, b).focus);
+// Strokes and fills reach across the picture, so a crop of a painting is cut from the whole painting.
+PixelRect traced_window(const Rendering& r, const Wishes& wishes, const PictureView& view) {
+    return r.plan.paint || wishes.maps ? whole(view) : grow(r.window, 1, view.width, view.height);
 }
 
-// The map as it was before its first frame: the field's records are made where a picture needs them.
-PhotonMap take_kept(const Rendering& r, KeptPhotons& kept, Passes& passes) {
-    PhotonMap map = std::move(kept.map);
-    if (map.field) add_field(r, r.settings, 1, map, passes);
-    return map;
+void look(Rendering& r, const Wishes& wishes, const PictureView& view, Passes& passes) {
+    r.gbuffer = passes.run("gbuffer", [&](const Progress& progress) {
+        return make_gbuffer(r.world, view, traced_window(r, wishes, view), r.settings.render, progress);
+    });
+}
+
+void render_in_passes(const Scene& scene, Rendering& r, const Wishes& wishes, const PictureView& view, Passes& passes) {
+    r.photons = first_photons(scene, r, wishes, false, passes);
+    save_if_asked(scene, r, wishes, passes);
+    look(r, wishes, view, passes);
+    refine(r, wishes, passes);
+}
+
+// Each pass whose result is kept is left out; light at points is asked for by those two that look for it alone.
+void render_at_once(const Scene& scene, Rendering& r, const Wishes& wishes, const PictureView& view, Reuse& reuse,
+                    Passes& passes) {
+    const bool lit = passes.run("render", [&](const Progress&) { return take_light(reuse, r); });
+    if (!passes.run("photons", [&](const Progress&) { return take_photons(reuse, r); }))
+        r.photons = first_photons(scene, r, wishes, false, passes);
+    save_if_asked(scene, r, wishes, passes);
+    const bool sparse = passes.run("sparse", [&](const Progress&) { return take_sources(reuse, r); });
+    if (!lit || (r.plan.paint && !sparse)) add_field(r, r.settings, 1, r.photons, passes);
+    if (!passes.run("gbuffer", [&](const Progress&) { return take_seen(reuse, r); })) look(r, wishes, view, passes);
+    if (r.plan.paint)
+        r.paint = paint(r, passes, sparse ? std::optional(std::move(r.paint.sparse)) : std::nullopt);
+    if (!lit)
+        r.rendered = passes.run("render", [&](const Progress& progress) {
+            return render(r.world, r.gbuffer, r.photons, r.settings, r.window, wishes.light_parts, progress);
+        });
+    r.stopped = r.rendered.stopped;
 }
 
 } // namespace
 
-void keep_photons(Rendering& r, std::uint64_t world_hash, KeptPhotons& kept) {
-    if (r.stopped || !r.plan.photons) return;
-    kept.valid = true;
-    kept.world = world_hash;
-    kept.settings = r.settings;
-    kept.normals = r.plan.normals;
-    kept.map = std::move(r.photons);
-}
-
-Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, KeptPhotons& kept,
-                       std::uint64_t world_hash, Passes& passes) {
+Rendering plan_rendering(const Scene& scene, const Settings& settings, const Wishes& wishes, Reuse& reuse,
+                         Passes& passes) {
     Rendering r;
     r.settings = settings;
     const PictureSize size = picture_size(scene.camera, settings.render);
@@ -194,35 +204,24 @@ Rendering render_scene(const Scene& scene, const Settings& settings, const Wishe
     r.settings.render.height = size.height;
     check_picture(size, wishes.budgets);
     r.window = crop_window(wishes.crop, size.width, size.height);
-
     r.world = passes.run("build", [&](const Progress&) { return build_world(scene, r.settings); });
     r.plan = make_plan(r.world, r.settings, wishes.maps);
-    const bool reuse = !wishes.refinement && still_holds(kept, world_hash, r);
-    if (reuse)
-        r.plan.left_out.push_back({"photons", "only the camera has moved since the frame before: its map is used again"});
-    else if (r.plan.photons && wishes.load_photons.empty())
-        kept.focus = check_photons(scene, r.world, r.settings, wishes.budgets);
+    find_keys(reuse, r, wishes);
+    return r;
+}
+
+Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, Reuse& reuse,
+                       Passes& passes) {
+    Rendering r = plan_rendering(scene, settings, wishes, reuse, passes);
+    if (r.plan.photons && wishes.load_photons.empty()) check_photons(scene, r.world, r.settings, wishes.budgets);
     passes.expect(expected_passes(r.plan, wishes));
     stop_gently();
-    const PictureView view{r.world.camera, size.width, size.height};
-    // Strokes and fills reach across the picture, so a crop of a painting is cut from the whole painting.
-    const bool all = r.plan.paint || wishes.maps;
+    const PictureView view{r.world.camera, r.settings.render.width, r.settings.render.height};
     try {
-        r.photons = reuse ? take_kept(r, kept, passes) : first_photons(scene, r, wishes, !wishes.refinement, passes);
-        kept.valid = false;
-        r.gbuffer = passes.run("gbuffer", [&](const Progress& progress) {
-            return make_gbuffer(r.world, view, all ? whole(view) : grow(r.window, 1, view.width, view.height),
-                                r.settings.render, progress);
-        });
-        if (wishes.refinement) {
-            refine(r, wishes, passes);
-        } else {
-            if (r.plan.paint) r.paint = paint(r, passes);
-            r.rendered = passes.run("render", [&](const Progress& progress) {
-                return render(r.world, r.gbuffer, r.photons, r.settings, r.window, wishes.light_parts, progress);
-            });
-            r.stopped = r.rendered.stopped;
-        }
+        if (wishes.refinement)
+            render_in_passes(scene, r, wishes, view, passes);
+        else
+            render_at_once(scene, r, wishes, view, reuse, passes);
     } catch (const Interrupted&) {
         r.stopped = true;
     }

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "cli/passes.h"
-#include "core/emission.h"
+#include "cli/reuse.h"
 #include "core/gbuffer.h"
 #include "core/photon_map.h"
 #include "core/plan.h"
@@ -43,16 +43,6 @@ struct Wishes {
     std::function<bool(struct Rendering&)> after_pass;
 };
 
-// The photon map of the frame before, for the frames that show the same world.
-struct KeptPhotons {
-    bool valid = false;
-    std::uint64_t world = 0; // LoadResult::world_hash
-    Settings settings;       // photons and the seed count
-    bool normals = false;
-    Focus focus; // where its photons were sent
-    PhotonMap map;
-};
-
 // All that a rendering leaves behind. Images have the picture's full size; pixels outside `window` are 0.
 struct Rendering {
     Settings settings; // with the picture's size filled in
@@ -79,17 +69,20 @@ PictureSize picture_size(const Camera& camera, const RenderSettings& settings);
 // Puts the two layers together as r.picture and counts what no file can hold.
 void complete_picture(Rendering& r);
 // Pass 2 [LW10 3.2]: sparse map, orientation, informative map, ILIC.
-PaintResult paint(const Rendering& r, Passes& passes);
+// `sources`: the sparse map, if it is known.
+PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> sources = {});
 // Pass 1 [LW10 3.1] and its kd-tree. `shrink`: see progressive.h.
 PhotonMap make_photons(const Rendering& r, const Settings& settings, int batch, double shrink, bool field, Passes& passes);
 // Smooth indirect light over a map that has its tree, where the scene needs it.
 void add_field(const Rendering& r, const Settings& settings, double shrink, PhotonMap& map, Passes& passes);
 
-// `kept` and `world_hash`: of an animation; the map is taken from there if it still holds. Throws SceneError, FileError,
+// What is kept of earlier renderings is taken where it is just what this one would make. Throws SceneError, FileError,
 // UsageError (a crop that leaves the picture, a picture or a photon map larger than the budgets allow).
-Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, KeptPhotons& kept,
-                       std::uint64_t world_hash, Passes& passes);
-// Moves the rendering's photon map to where the next frame finds it.
-void keep_photons(Rendering& rendering, std::uint64_t world_hash, KeptPhotons& kept);
+Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, Reuse& reuse,
+                       Passes& passes);
+
+// The world, the plan and the sizes of a rendering to come, and what it would find kept.
+Rendering plan_rendering(const Scene& scene, const Settings& settings, const Wishes& wishes, Reuse& reuse,
+                         Passes& passes);
 
 } // namespace pnr

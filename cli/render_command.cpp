@@ -66,11 +66,12 @@ std::vector<std::string> all_warnings(const LoadResult& loaded, const Rendering&
 }
 
 void write_results(const LoadResult& loaded, const Rendering& r, const Options& options, const Files& files,
-                   Passes& passes) {
+                   const Reuse& reuse, Passes& passes) {
     passes.run("write", [&](const Progress&) {
         for (const fs::path& picture : files.pictures)
             write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
         if (!files.maps.empty()) write_maps(r, files.maps);
+        store_on_disk(reuse, r);
     });
     if (files.stats.empty()) return;
     const std::string text = stats_json(*loaded.scene, r, passes.times(), all_warnings(loaded, r));
@@ -118,7 +119,7 @@ int code_of(const Rendering& r, const Options& options) {
     return exit_missed;
 }
 
-int render_frame(const Options& options, const AnimationFrame& frame, KeptPhotons& kept) {
+int render_frame(const Options& options, const AnimationFrame& frame, Reuse& reuse) {
     const Files files = files_of(options, frame);
     const auto& pictures = files.pictures;
     for (const fs::path& picture : pictures) check_output(picture);
@@ -142,13 +143,13 @@ int render_frame(const Options& options, const AnimationFrame& frame, KeptPhoton
         const Wishes wishes{options.crop,         !files.maps.empty(),     wants_light_parts(options),
                             options.save_photons, options.load_photons,    refinement_of(options),
                             write_pictures,       options.budgets,        {}};
-        Rendering r = render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, kept,
-                                   loaded.world_hash, passes);
+        reuse.scene = identity_of(loaded);
+        Rendering r = render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, reuse, passes);
         for (const std::string& note : notes_of(r)) print_note(note);
         report_faults(r.faults);
-        write_results(loaded, r, options, files, passes);
+        write_results(loaded, r, options, files, reuse, passes);
         const int code = code_of(r, options);
-        if (!wishes.refinement) keep_photons(r, loaded.world_hash, kept);
+        if (options.frames) keep(reuse, r);
         return code;
     });
 }
@@ -158,10 +159,12 @@ int render_frame(const Options& options, const AnimationFrame& frame, KeptPhoton
 int run_render(const Options& options) {
     check_aovs(options.aovs);
     const ThreadLimit limit(options.threads);
-    KeptPhotons kept;
+    Reuse reuse;
+    reuse.film = options.frames.has_value();
+    if (options.cache) reuse.disk = users_cache();
     int result = exit_done;
     for (const AnimationFrame& frame : frames_of(options)) {
-        const int code = render_frame(options, frame, kept);
+        const int code = render_frame(options, frame, reuse);
         if (code != exit_done && code != exit_missed) return code;
         if (code == exit_missed) result = code;
         if (stop_signal() != 0) return exit_signal + stop_signal(); // between two frames

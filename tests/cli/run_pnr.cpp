@@ -18,13 +18,20 @@ namespace pnr {
 
 namespace fs = std::filesystem;
 
-TemporaryFolder::TemporaryFolder() {
+namespace {
+
+fs::path make_folder() {
     std::string pattern = (fs::temp_directory_path() / "pnr-test-XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
+    return ::mkdtemp(pattern.data());
 }
+
+} // namespace
+
+TemporaryFolder::TemporaryFolder() : path_(make_folder()), cache_(make_folder()) {}
 TemporaryFolder::~TemporaryFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
+    fs::remove_all(cache_, ignored);
 }
 void TemporaryFolder::write(const std::string& name, const std::string& text) const {
     std::ofstream(path_ / name, std::ios::binary) << text;
@@ -69,6 +76,7 @@ pid_t start(const TemporaryFolder& folder, const std::vector<std::string>& argum
     argv.push_back(nullptr);
     const pid_t child = ::fork();
     if (child != 0) return child;
+    ::setenv("XDG_CACHE_HOME", folder.cache().c_str(), 1); // never the user's own
     for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
     ::dup2(in.read, 0);
     ::dup2(out.write, 1);

@@ -30,8 +30,10 @@ public:
     std::string read(const std::string& name) const; // bytes; "" if it is not there
     std::vector<std::string> names() const;          // sorted
 
+    const std::filesystem::path& cache() const { return cache_; } // what stands for the user's cache folder
+
 private:
-    std::filesystem::path path_;
+    std::filesystem::path path_, cache_;
 };
 
 // Runs pnr with `folder` as its current folder and `input` on its standard input.
