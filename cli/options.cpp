@@ -174,7 +174,7 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
     add_choice<Quality>(app, "--quality", options.quality,
                         {{"draft", Quality::draft}, {"normal", Quality::normal}, {"high", Quality::high}},
                         "Rays a pixel and shadow rays a light: draft 1 to 4 and 4, normal the scene's own (4 "
-                        "to 16 and 16), high 16 to 64 and 64; half or twice the photons if the scene does not "
+                        "to 16 and 32), high 16 to 64 and 64; half or twice the photons if the scene does not "
                         "say how many");
     app.add_option("--time", options.time_s,
                    "Refine the picture in passes until so many seconds have gone by, from start to written file")
