@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/commands.h"
 
+#include "cli/forecast.h"
 #include "cli/interrupt.h"
 #include "cli/load.h"
 #include "cli/pipeline.h"
@@ -39,12 +40,16 @@ int run_check(const Options& options) {
 // ---- plan ----
 
 int run_plan(const Options& options) {
+    const ThreadLimit limit(options.threads);
+    Passes passes(ProgressMode::off, true);
     LoadResult loaded;
-    if (!load_and_report(options, {}, loaded)) return exit_scene;
+    if (!passes.run("parse", [&](const Progress&) { return load_and_report(options, {}, loaded); })) return exit_scene;
     return with_scene_errors(loaded.sources, [&] {
         const Settings settings = merge_settings(loaded.settings, options);
-        const Plan plan = make_plan(build_world(*loaded.scene, settings), settings, false);
-        print_answer(options.format == TextFormat::json ? plan_json(plan) : plan_text(plan));
+        World world = passes.run("build", [&](const Progress&) { return build_world(*loaded.scene, settings); });
+        const Plan plan = make_plan(world, settings, false);
+        const Forecast f = forecast(std::move(world), settings, plan, passes.times());
+        print_answer(options.format == TextFormat::json ? plan_json(plan, f) : plan_text(plan, f));
         return exit_done;
     });
 }

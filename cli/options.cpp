@@ -233,6 +233,8 @@ void add_others(CLI::App& parent, Options& options, Words& words, std::optional<
     CLI::App& plan =
         *parent.add_subcommand("plan", "Say which passes and structures a scene needs, and what is left out");
     plan.add_option("SCENE", words.scene, "A scene file; none: the built-in scene");
+    add_size_options(plan, options, words);
+    add_threads(plan, options);
     add_scene_options(plan, options, words);
     add_choice(plan, "--format", format, formats, "How to print the plan");
     plan.add_flag("--no-prune", words.no_prune, "The plan when nothing is left out");
