@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a rendering will take: memory and time of each pass, before it is done.
 //
-// The scene is rendered for real, but small: fewer pixels and fewer photons through the same passes. What that
-// takes is scaled up by laws that were measured (forecast.cpp). So costs that no count of shapes foretells are in
-// it: an isosurface's function, glass, a mirror full of paint.
+// The scene is rendered for real, but small: fewer pixels and fewer photons through the same passes. What
+// that takes is scaled up by laws that were measured (forecast.cpp). So costs that no count of shapes
+// foretells are in it: an isosurface's function, glass, a mirror full of paint.
 #pragma once
 
 #include "cli/pipeline.h"
@@ -24,13 +24,15 @@ struct PassForecast {
 struct Forecast {
     std::vector<PassForecast> passes;
     std::vector<StructureSize> structures;
-    int width = 0, height = 0;       // of the picture foretold ...
-    int small_width = 0;             // ... and of the one that was rendered for that
+    int width = 0, height = 0;                   // of the picture foretold ...
+    int small_width = 0;                         // ... and of the one that was rendered for that
     std::int64_t photons = 0, small_photons = 0; // emitted, without those aimed at what throws caustics
 };
 
-// Of a rendering in one go (no --time, --error or --passes) with all photons traced anew. `world` and `times`: of
-// `parse` and `build`, which have been done. Throws SceneError and UsageError as render_scene does.
-Forecast forecast(World world, const Settings& settings, const Plan& plan, const std::vector<PassTime>& times);
+// Of a rendering in one go (no --time, --error or --passes) with all photons traced anew. `world` and
+// `times`: of `parse` and `build`, which have been done. Throws SceneError and UsageError as render_scene
+// does.
+Forecast forecast(World world, const Settings& settings, const Plan& plan,
+                  const std::vector<PassTime>& times);
 
 } // namespace pnr

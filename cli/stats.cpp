@@ -131,7 +131,7 @@ std::string stats_json(const Scene& scene, const Rendering& r, const std::vector
 
 namespace {
 
-std::string megabytes(double bytes) { return fmt::format("{:.1f}", bytes / 1e6); }
+std::string megabytes(double bytes) { return fmt::format("{:.1f}", bytes / (1024 * 1024)); }
 
 HtmlTable pass_table(const Forecast& f) {
     HtmlTable table{{"pass", "CPU s", "share %", "memory so far MB"}, {}, {}};

@@ -314,12 +314,14 @@ void write_pixel(const Job& job, int x, int y, RenderResult& result) {
 // What the map is asked for: nothing where there is none, caustics alone in POV-Ray's `photons {}` scenes.
 void choose_gathers(Shading& shading, const PhotonSettings& photons) {
     shading.indirect.count = shading.caustic.count = 0;
-    if (shading.map.photons.empty()) return;
-    const GatherSettings both = default_gather(shading.world, shading.map, photons);
+    const World& world = shading.world;
+    const bool lit = world.illumination == Illumination::photon_mapped || world.caustics_apart;
+    if (shading.map.photons.empty() || !lit) return; // a map may be there for paint's sake, or unpruned
+    const GatherSettings both = default_gather(world, shading.map, photons);
     shading.caustic = both;
     shading.caustic.direct = shading.caustic.indirect = false;
     if (shading.map.caustic.count == 0) shading.caustic.count = 0;
-    if (shading.world.illumination != Illumination::photon_mapped) return;
+    if (world.illumination != Illumination::photon_mapped) return;
     shading.indirect = both;
     shading.indirect.caustic = false;
     shading.indirect.sharp = shading.settings.sharp;
