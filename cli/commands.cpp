@@ -7,6 +7,7 @@
 #include "cli/pipeline.h"
 #include "cli/report.h"
 #include "cli/stats.h"
+#include "core/near_limits.h"
 
 #include <fmt/format.h>
 
@@ -48,6 +49,7 @@ int run_plan(const Options& options) {
         const Settings settings = merge_settings(loaded.settings, options);
         World world = passes.run("build", [&](const Progress&) { return build_world(*loaded.scene, settings); });
         const Plan plan = make_plan(world, settings, false);
+        for (const std::string& note : near_limits(world, settings, plan.photons)) print_note(note);
         const Forecast f = forecast(std::move(world), settings, plan, passes.times());
         print_answer(options.format == TextFormat::json ? plan_json(plan, f) : plan_text(plan, f));
         return exit_done;

@@ -171,11 +171,24 @@ double lit_bytes(double photons) {
     return table + static_cast<double>(places * (sizeof(LitPlaces::Place) + 18));
 }
 
-// The other part, sites at distances that the scene's size gives, hardly grows with the photons.
-double field_bytes_of(const PhotonMap& map, double bytes, const Scale& scale) {
+// The other part, sites at distances that the scene's size gives, hardly grows with the photons, but that
+// more of them allow finer levels, each with four times the sites (irradiance_field.cpp).
+double level_sites(double scene_radius, double gather_radius) {
+    const double photon_distance = std::sqrt(pi / 100) * gather_radius;
+    double sites = 0, of_level = 1;
+    int levels = 0;
+    for (double s = scene_radius / 10; levels < 4 && s > photon_distance; s /= 2, ++levels, of_level *= 4)
+        sites += of_level;
+    return std::max(1.0, sites);
+}
+
+double field_bytes_of(const Rendering& small, double bytes, const Scale& scale) {
+    const PhotonMap& map = small.photons;
     if (!map.field) return 0;
-    const auto photons = static_cast<double>(map.tree.count);
-    return std::max(0.0, bytes - lit_bytes(photons)) * std::pow(scale.photons, 0.2) +
+    const auto photons = static_cast<double>(map.tree.count), radius = static_cast<double>(map.radius);
+    const double finer = level_sites(small.world.radius, radius / std::sqrt(scale.photons)) /
+                         level_sites(small.world.radius, radius);
+    return std::max(0.0, bytes - lit_bytes(photons)) * std::max(finer, std::pow(scale.photons, 0.2)) +
            lit_bytes(photons * scale.photons);
 }
 
@@ -196,7 +209,7 @@ Sizes foretell_sizes(const Rendering& small, const Scale& scale) {
         if (size.name == "bvh") s.bvh = size.bytes;
         if (size.name == "photons") s.photons = size.bytes * scale.photons;
         if (size.name == "kdtree") s.kdtree = size.bytes * scale.photons;
-        if (size.name == "field") s.field = field_bytes_of(small.photons, size.bytes, scale);
+        if (size.name == "field") s.field = field_bytes_of(small, size.bytes, scale);
         if (size.name == "gbuffer") s.gbuffer = size.bytes * scale.pixels;
         if (size.name == "picture") s.picture = size.bytes * scale.pixels;
     }

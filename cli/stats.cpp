@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/stats.h"
 
+#include "cli/faults.h"
 #include "cli/html_page.h"
 #include "cli/structures.h"
 #include "core/geometry.h"
@@ -62,6 +63,14 @@ Json ray_counts(const Rendering& r) {
     return rays;
 }
 
+// Beside the counts where they are: the objects, the worst first, with a pixel each.
+Json numbers_object(const Rendering& r) {
+    Json objects = Json::array();
+    for (const ObjectFaults& o : faults_by_object(r))
+        objects.push_back({{"object", o.object}, {"samples", o.faults.sum()}, {"pixel", {o.x, o.y}}});
+    return {{"nan", r.faults.nan}, {"inf", r.faults.inf}, {"negative", r.faults.negative}, {"objects", objects}};
+}
+
 Json memory_object(const Rendering& r) {
     Json memory = Json::object();
     for (const StructureSize& size : structure_sizes(r)) memory[size.name] = static_cast<std::int64_t>(size.bytes);
@@ -121,7 +130,7 @@ std::string stats_json(const Scene& scene, const Rendering& r, const std::vector
         {"npr", paint_counts(r)},
         {"rays", ray_counts(r)},
         {"memory", memory_object(r)},
-        {"numbers", {{"nan", r.faults.nan}, {"inf", r.faults.inf}, {"negative", r.faults.negative}}},
+        {"numbers", numbers_object(r)},
         {"plan", plan_object(r.plan)},
         {"error", error_object(r)},
         {"warnings", warnings},

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 // Those of a folder, in the order of their names.
 std::vector<fs::path> scenes_of(const std::string& folder) {
     std::vector<fs::path> scenes;
-    for (const auto& entry : fs::directory_iterator(std::string(PNR_SOURCE_DIR "/scenes/") + folder))
+    for (const auto& entry : fs::directory_iterator(std::string(PNR_SOURCE_DIR "/") + folder))
         if (const std::string end = entry.path().extension(); end == ".pnr" || end == ".pov")
             scenes.push_back(entry.path());
     std::sort(scenes.begin(), scenes.end());
@@ -81,10 +81,12 @@ TEST_P(NoPrune, GivesTheSamePicture) {
     if (compared == 0) GTEST_SKIP() << "skipped: no meshes";
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, NoPrune, testing::Values("", "course", "gallery", "paper"),
+INSTANTIATE_TEST_SUITE_P(Scenes, NoPrune, testing::Values("scenes", "scenes/course", "scenes/gallery", "scenes/paper", "tests/bench/light",
+                                         "tests/bench/prune", "tests/corpus/scenes"),
                          [](const auto& chosen) {
-                             const std::string name = chosen.param;
-                             return name.empty() ? std::string("own") : name;
+                             std::string name = chosen.param;
+                             std::replace(name.begin(), name.end(), '/', '_');
+                             return name;
                          });
 
 } // namespace
