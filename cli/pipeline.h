@@ -41,6 +41,8 @@ struct Wishes {
     Budgets budgets; // pixels and photons
     // Called after each progressive pass, whose means are in r.rendered; false ends the run.
     std::function<bool(struct Rendering&)> after_pass;
+    // Called with World::notes, once that is built.
+    std::function<void(const std::vector<std::string>&)> before_passes;
 };
 
 // All that a rendering leaves behind. Images have the picture's full size; pixels outside `window` are 0.
@@ -55,6 +57,7 @@ struct Rendering {
     RenderResult rendered;
     Layer picture; // linear; empty if the passes were stopped before there was anything to show
     SampleFaults faults;
+    std::vector<FaultPlace> fault_places;
     ProgressiveSum progressive; // 0 passes if the picture was rendered in one go
     int passes_done = 0;        // what --passes must be to have this picture again
     double asked_error = 0;     // --error; 0: not asked for

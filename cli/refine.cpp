@@ -24,6 +24,7 @@ void take_means(Rendering& r) {
     r.rendered.layer = sum.mean;
     r.rendered.parts = sum.parts;
     r.rendered.faults = sum.faults;
+    r.rendered.fault_places = sum.fault_places;
     r.rendered.camera_rays = sum.camera_rays;
     r.rendered.gathers = sum.gathers;
 }

@@ -2,6 +2,7 @@
 // `pnr render`: one picture, or the frames of an animation one after the other.
 #include "cli/commands.h"
 
+#include "cli/faults.h"
 #include "cli/interrupt.h"
 #include "cli/load.h"
 #include "cli/map_files.h"
@@ -50,9 +51,9 @@ void check_aovs(const std::vector<std::string>& asked) {
 
 bool exists(const fs::path& file) { return file != "-" && fs::exists(file); }
 
-// What was done to meshes, and what the orientation fields could not do.
-std::vector<std::string> notes_of(const Rendering& r) {
-    std::vector<std::string> notes = r.world.notes;
+// What the orientation fields could not do.
+std::vector<std::string> field_notes(const Rendering& r) {
+    std::vector<std::string> notes;
     for (const FieldReport& report : r.paint.fields.reports)
         for (const std::string& note : report.notes)
             notes.push_back(fmt::format("object {}: {}", report.object, note));
@@ -61,7 +62,8 @@ std::vector<std::string> notes_of(const Rendering& r) {
 
 std::vector<std::string> all_warnings(const LoadResult& loaded, const Rendering& r) {
     std::vector<std::string> warnings = warning_texts(loaded.diagnostics, loaded.sources);
-    for (std::string& note : notes_of(r)) warnings.push_back(std::move(note));
+    for (const auto& more : {r.world.notes, field_notes(r), fault_warnings(r)})
+        warnings.insert(warnings.end(), more.begin(), more.end());
     return warnings;
 }
 
@@ -79,13 +81,6 @@ void write_results(const LoadResult& loaded, const Rendering& r, const Options& 
         print_answer(text);
     else
         write_file_atomically(files.stats, text);
-}
-
-void report_faults(const SampleFaults& faults) {
-    if (faults.nan + faults.inf + faults.negative == 0) return;
-    print_warning(fmt::format(
-        "samples that no picture can show were left out: {} not a number, {} infinite, {} negative",
-        faults.nan, faults.inf, faults.negative));
 }
 
 bool wants_light_parts(const Options& options) {
@@ -140,13 +135,16 @@ int render_frame(const Options& options, const AnimationFrame& frame, Reuse& reu
             for (const fs::path& picture : pictures)
                 write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
         };
-        const Wishes wishes{options.crop,         !files.maps.empty(),     wants_light_parts(options),
+        Wishes wishes{options.crop,         !files.maps.empty(),     wants_light_parts(options),
                             options.save_photons, options.load_photons,    refinement_of(options),
-                            write_pictures,       options.budgets,        {}};
+                            write_pictures,       options.budgets,        {},         {}};
+        wishes.before_passes = [](const std::vector<std::string>& notes) {
+            for (const std::string& note : notes) print_note(note);
+        };
         reuse.scene = identity_of(loaded);
         Rendering r = render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, reuse, passes);
-        for (const std::string& note : notes_of(r)) print_note(note);
-        report_faults(r.faults);
+        for (const std::string& note : field_notes(r)) print_note(note);
+        for (const std::string& line : fault_warnings(r)) print_warning(line);
         write_results(loaded, r, options, files, reuse, passes);
         const int code = code_of(r, options);
         if (options.frames) keep(reuse, r);

@@ -468,4 +468,17 @@ Color gathered_irradiance(const IrradianceField& field, const World& world, cons
 
 std::int64_t record_count(const IrradianceField& field) { return field.records; }
 
+std::int64_t field_bytes(const IrradianceField& field) {
+    const auto weight = [](const auto& values) { return values.size() * sizeof(values[0]); };
+    const auto tree_weight = [&](const KdTree& tree) {
+        return weight(tree.x) + weight(tree.y) + weight(tree.z) + weight(tree.order) + weight(tree.nodes);
+    };
+    std::size_t bytes = weight(field.lit.places) + tree_weight(field.lit.tree);
+    if (field.lit.cells.slots) bytes += (field.lit.cells.mask + 1) * sizeof(LitCells::Slot);
+    for (const Level& level : field.levels)
+        bytes += weight(level.sites) + weight(level.records) + tree_weight(level.tree) +
+                 level.sites.size() * sizeof(std::once_flag);
+    return static_cast<std::int64_t>(bytes);
+}
+
 } // namespace pnr

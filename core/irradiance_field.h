@@ -53,5 +53,7 @@ Color gathered_irradiance(const IrradianceField& field, const World& world, cons
 
 // How many records have been computed so far, for statistics.
 std::int64_t record_count(const IrradianceField& field);
+// What it weighs, in bytes; records count whether they have been computed or not.
+std::int64_t field_bytes(const IrradianceField& field);
 
 } // namespace pnr

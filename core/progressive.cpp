@@ -176,6 +176,7 @@ void add_pass(ProgressiveSum& sum, const ProgressiveStep& step, RenderResult pas
     sum.faults.nan += pass.faults.nan;
     sum.faults.inf += pass.faults.inf;
     sum.faults.negative += pass.faults.negative;
+    merge_faults(sum.fault_places, std::move(pass.fault_places));
     if (!step.preview && sum.open_passes == batch_length) close_batch(sum, step.shrink);
 }
 

@@ -43,6 +43,7 @@ struct ProgressiveSum {
     LightParts parts;         // likewise
     std::int64_t camera_rays = 0, gathers = 0;
     SampleFaults faults;
+    std::vector<FaultPlace> fault_places;
     // Of the luminance of whole batches: mean, sum of squared differences from it, sum of shrink times luminance.
     Image<float> batch_mean, batch_squares, batch_slope;
     double shrinks = 0, shrinks2 = 0; // sums over batches

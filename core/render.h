@@ -15,7 +15,21 @@ namespace pnr {
 // an image").
 struct SampleFaults {
     std::int64_t nan = 0, inf = 0, negative = 0;
+    std::int64_t sum() const { return nan + inf + negative; }
+    SampleFaults& operator+=(const SampleFaults& more) {
+        nan += more.nan, inf += more.inf, negative += more.negative;
+        return *this;
+    }
 };
+
+// A pixel with such samples.
+struct FaultPlace {
+    int x = 0, y = 0;
+    std::uint32_t object = 0; // where the first of them went wrong: the deepest hit of its path; 0: nowhere
+    SampleFaults faults;
+};
+// Adds what another pass found, so that each pixel stands once, in the order of rows.
+void merge_faults(std::vector<FaultPlace>& places, std::vector<FaultPlace> more);
 
 // AOVs of the photoreal light, filled when asked for (empty images else); radiance of the pixel.
 struct LightParts {
@@ -36,6 +50,7 @@ struct SampleRange {
 struct RenderResult {
     Layer layer;
     SampleFaults faults;
+    std::vector<FaultPlace> fault_places;
     LightParts parts;
     std::int64_t camera_rays = 0, gathers = 0;
     bool stopped = false; // progress said stop: pixels hold what they had got by then
