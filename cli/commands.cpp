@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/commands.h"
 
+#include "cli/forecast.h"
 #include "cli/identity.h"
 #include "cli/interrupt.h"
 #include "cli/load.h"
@@ -40,17 +41,20 @@ int run_check(const Options& options) {
 // ---- plan ----
 
 int run_plan(const Options& options) {
+    const ThreadLimit limit(options.threads);
+    Passes passes(ProgressMode::off, true);
     LoadResult loaded;
-    if (!load_and_report(options, {}, loaded)) return exit_scene;
+    if (!passes.run("parse", [&](const Progress&) { return load_and_report(options, {}, loaded); })) return exit_scene;
     return with_scene_errors(loaded.sources, [&] {
         Reuse reuse;
         reuse.scene = identity_of(loaded);
         if (options.cache) reuse.disk = users_cache();
-        Passes passes(ProgressMode::off, true);
         Rendering r = plan_rendering(*loaded.scene, merge_settings(loaded.settings, options), {}, reuse, passes);
+        for (const std::string& note : r.world.notes) print_note(note);
         note_stored(reuse, r);
-        const Plan& plan = r.plan;
-        print_answer(options.format == TextFormat::json ? plan_json(plan) : plan_text(plan));
+        const Plan plan = r.plan;
+        const Forecast f = forecast(std::move(r.world), r.settings, plan, passes.times());
+        print_answer(options.format == TextFormat::json ? plan_json(plan, f) : plan_text(plan, f));
         return exit_done;
     });
 }

@@ -164,7 +164,7 @@ void add_picture_options(CLI::App& app, Options& options, Words& words, std::opt
     add_choice<Quality>(app, "--quality", options.quality,
                         {{"draft", Quality::draft}, {"normal", Quality::normal}, {"high", Quality::high}},
                         "Rays a pixel and shadow rays a light: draft 1 to 4 and 4, normal the scene's own (4 "
-                        "to 16 and 16), high 16 to 64 and 64; half or twice the photons if the scene does not "
+                        "to 16 and 32), high 16 to 64 and 64; half or twice the photons if the scene does not "
                         "say how many");
     add_choice<Integrator>(app, "--integrator", options.integrator,
                            {{"photons", Integrator::photons}, {"path", Integrator::path}},
@@ -218,7 +218,7 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
     app.add_option("--antialias-depth", options.antialias_depth)->group("")->check(CLI::Range(1, 9));
     app.add_option("--antialias-jitter", options.antialias_jitter)->group("")->check(CLI::Range(0.0, 1.0));
     app.footer("Parts for --aov: N P Z id npr.mask direct indirect caustic specular photon.density error.noise\n"
-               "error.bias sparse informative partial. SIGUSR1 has a run with --time, --error or --passes write the\n"
+               "error.bias numbers sparse informative partial. SIGUSR1 has a run with --time, --error or --passes write the\n"
                "picture so far. POV-Ray's options (+W640 +H480 +I +O +L +Q +A0.3 +WT2 ...) are understood too.\n\n"
                "Examples:\n"
                "  pnr render                                   the built-in scene, to default.png\n"
@@ -256,6 +256,8 @@ void add_others(CLI::App& parent, Options& options, Words& words, std::optional<
     CLI::App& plan =
         *parent.add_subcommand("plan", "Say which passes and structures a scene needs, and what is left out");
     plan.add_option("SCENE", words.scene, "A scene file; none: the built-in scene");
+    add_size_options(plan, options, words);
+    add_threads(plan, options);
     add_scene_options(plan, options, words);
     add_choice(plan, "--format", format, formats, "How to print the plan");
     plan.add_flag("--no-prune", words.no_prune, "The plan when nothing is left out");

@@ -5,6 +5,7 @@
 #include "core/emission.h"
 #include "cli/refine.h"
 #include "core/irradiance_field.h"
+#include "core/near_limits.h"
 #include "core/trace_photons.h"
 
 #include <fmt/format.h>
@@ -114,9 +115,11 @@ PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> s
 namespace {
 
 // The two layers as one, without a value that no file can hold.
-Layer put_together(const Layer& painted, const Layer& photoreal, const PixelRect& window,
-                   SampleFaults& faults) {
+Layer put_together(const Rendering& r, SampleFaults& faults, std::vector<FaultPlace>& places) {
+    const Layer &painted = r.paint.layer, &photoreal = r.rendered.layer;
+    const PixelRect& window = r.window;
     Layer picture{over(painted, photoreal), photoreal.alpha};
+    std::vector<FaultPlace> found;
     for (int y = 0; y < picture.color.height; ++y) {
         for (int x = 0; x < picture.color.width; ++x) {
             Color& color = picture.color.at(x, y);
@@ -127,13 +130,17 @@ Layer put_together(const Layer& painted, const Layer& photoreal, const PixelRect
                 continue;
             }
             alpha = std::min(1.0f, alpha + painted.alpha.at(x, y));
+            SampleFaults here;
             for (int c = 0; c < 3; ++c) {
                 if (std::isfinite(color[c])) continue;
-                ++(std::isnan(color[c]) ? faults.nan : faults.inf);
+                ++(std::isnan(color[c]) ? here.nan : here.inf);
                 color[c] = 0;
             }
+            if (here.sum() > 0) found.push_back({x, y, r.gbuffer.seen.at(x, y).object, here});
+            faults += here;
         }
     }
+    merge_faults(places, std::move(found));
     return picture;
 }
 
@@ -231,9 +238,8 @@ void add_band(RenderResult& all, const RenderResult& band, const PixelRect& rows
     copy_rows(all.parts.caustic, band.parts.caustic, rows);
     copy_rows(all.parts.specular, band.parts.specular, rows);
     copy_rows(all.parts.photon_density, band.parts.photon_density, rows);
-    all.faults.nan += band.faults.nan;
-    all.faults.inf += band.faults.inf;
-    all.faults.negative += band.faults.negative;
+    all.faults += band.faults;
+    merge_faults(all.fault_places, band.fault_places);
     all.camera_rays += band.camera_rays;
     all.gathers += band.gathers;
     all.stopped = band.stopped;
@@ -295,6 +301,7 @@ Rendering plan_rendering(const Scene& scene, const Settings& settings, const Wis
     r.window = crop_window(wishes.crop, size.width, size.height);
     r.world = passes.run("build", [&](const Progress&) { return build_world(scene, r.settings); });
     r.plan = make_plan(r.world, r.settings, wishes.maps);
+    for (std::string& note : near_limits(r.world, r.settings, r.plan.photons)) r.world.notes.push_back(std::move(note));
     find_keys(reuse, r, wishes);
     return r;
 }
@@ -302,6 +309,7 @@ Rendering plan_rendering(const Scene& scene, const Settings& settings, const Wis
 Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, Reuse& reuse,
                        Passes& passes) {
     Rendering r = plan_rendering(scene, settings, wishes, reuse, passes);
+    if (wishes.before_passes) wishes.before_passes(r.world.notes);
     if (r.plan.photons && wishes.load_photons.empty()) check_photons(scene, r.world, r.settings, wishes.budgets);
     stop_gently();
     const Taken taken = take_all(r, reuse, passes);
@@ -321,11 +329,12 @@ Rendering render_scene(const Scene& scene, const Settings& settings, const Wishe
 
 void complete_picture(Rendering& r) {
     r.faults = r.rendered.faults;
+    r.fault_places = r.rendered.fault_places;
     const bool nothing = r.paint.layer.color.empty() && r.rendered.layer.color.empty();
     if (r.stopped && nothing) return;
     if (r.paint.layer.color.empty()) r.paint.layer = empty_layer(r.gbuffer.view);
     if (r.rendered.layer.color.empty()) r.rendered.layer = empty_layer(r.gbuffer.view);
-    r.picture = put_together(r.paint.layer, r.rendered.layer, r.window, r.faults);
+    r.picture = put_together(r, r.faults, r.fault_places);
 }
 
 } // namespace pnr

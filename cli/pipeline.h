@@ -46,6 +46,8 @@ struct Wishes {
     std::function<bool(struct Rendering&)> after_pass;
     // Called with each part that is there; light comes in bands of rows, or in passes of the whole.
     std::function<void(const struct Rendering&, RenderedPart, const PixelRect&)> on_part;
+    // Called with World::notes, once that is built.
+    std::function<void(const std::vector<std::string>&)> before_passes;
 };
 
 // All that a rendering leaves behind. Images have the picture's full size; pixels outside `window` are 0.
@@ -60,6 +62,7 @@ struct Rendering {
     RenderResult rendered;
     Layer picture; // linear; empty if the passes were stopped before there was anything to show
     SampleFaults faults;
+    std::vector<FaultPlace> fault_places;
     ProgressiveSum progressive; // 0 passes if the picture was rendered in one go
     int passes_done = 0;        // what --passes must be to have this picture again
     double asked_error = 0;     // --error; 0: not asked for

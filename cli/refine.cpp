@@ -24,6 +24,7 @@ void take_means(Rendering& r) {
     r.rendered.layer = sum.mean;
     r.rendered.parts = sum.parts;
     r.rendered.faults = sum.faults;
+    r.rendered.fault_places = sum.fault_places;
     r.rendered.camera_rays = sum.camera_rays;
     r.rendered.gathers = sum.gathers;
 }
@@ -73,7 +74,7 @@ void refine(Rendering& r, const Wishes& wishes, Passes& passes) {
             prepare_pass(r, step, settings, pass, map, passes);
             result = passes.run("render", [&](const Progress& progress) {
                 return render(r.world, r.gbuffer, *map.now, settings, r.window, wishes.light_parts, progress,
-                              step.samples);
+                              samples_of(step, r.progressive));
             });
         } catch (const Interrupted&) {
             if (pass == 0) throw;

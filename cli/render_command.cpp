@@ -2,6 +2,7 @@
 // `pnr render`: one picture, or the frames of an animation one after the other.
 #include "cli/commands.h"
 
+#include "cli/faults.h"
 #include "cli/interrupt.h"
 #include "cli/load.h"
 #include "cli/map_files.h"
@@ -12,6 +13,7 @@
 #include "cli/stats.h"
 #include "cli/tev_view.h"
 #include "core/atomic_file.h"
+#include "core/parallel.h"
 
 #include <fmt/format.h>
 
@@ -41,9 +43,9 @@ Files files_of(const Options& options, const AnimationFrame& frame) {
 
 bool exists(const fs::path& file) { return file != "-" && fs::exists(file); }
 
-// What was done to meshes, and what the orientation fields could not do.
-std::vector<std::string> notes_of(const Rendering& r) {
-    std::vector<std::string> notes = r.world.notes;
+// What the orientation fields could not do.
+std::vector<std::string> field_notes(const Rendering& r) {
+    std::vector<std::string> notes;
     for (const FieldReport& report : r.paint.fields.reports)
         for (const std::string& note : report.notes)
             notes.push_back(fmt::format("object {}: {}", report.object, note));
@@ -52,17 +54,20 @@ std::vector<std::string> notes_of(const Rendering& r) {
 
 std::vector<std::string> all_warnings(const LoadResult& loaded, const Rendering& r) {
     std::vector<std::string> warnings = warning_texts(loaded.diagnostics, loaded.sources);
-    for (std::string& note : notes_of(r)) warnings.push_back(std::move(note));
+    for (const auto& more : {r.world.notes, field_notes(r), fault_warnings(r)})
+        warnings.insert(warnings.end(), more.begin(), more.end());
     return warnings;
 }
 
 void write_results(const LoadResult& loaded, const Rendering& r, const Options& options, const Files& files,
                    const Reuse& reuse, Passes& passes) {
     passes.run("write", [&](const Progress&) {
-        for (const fs::path& picture : files.pictures)
-            write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
-        if (!files.maps.empty()) write_maps(r, files.maps);
-        store_on_disk(reuse, r);
+        parallel_for(2, 1, [&](std::int64_t job, std::int64_t, std::int64_t) { // the cache is not waited for
+            if (job == 1) return store_on_disk(reuse, r);
+            for (const fs::path& picture : files.pictures)
+                write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
+            if (!files.maps.empty()) write_maps(r, files.maps);
+        });
     });
     if (files.stats.empty()) return;
     const std::string text = stats_json(*loaded.scene, r, passes.times(), all_warnings(loaded, r));
@@ -70,13 +75,6 @@ void write_results(const LoadResult& loaded, const Rendering& r, const Options& 
         print_answer(text);
     else
         write_file_atomically(files.stats, text);
-}
-
-void report_faults(const SampleFaults& faults) {
-    if (faults.nan + faults.inf + faults.negative == 0) return;
-    print_warning(fmt::format(
-        "samples that no picture can show were left out: {} not a number, {} infinite, {} negative",
-        faults.nan, faults.inf, faults.negative));
 }
 
 bool wants_error(const Options& options) {
@@ -126,14 +124,23 @@ int render_frame(const Options& options, const AnimationFrame& frame, Reuse& reu
         };
         std::optional<TevView> viewer;
         if (!options.tev.empty()) viewer.emplace(options.tev, "pnr: " + pictures.front().string());
-        const Wishes wishes{options.crop,         !files.maps.empty(),     wants_light_parts(options.aovs),
-                            options.save_photons, options.load_photons,    refinement_of(options),
-                            write_pictures,       options.budgets,        {},
-                            viewer_of(viewer)};
+        Wishes wishes;
+        wishes.crop = options.crop;
+        wishes.maps = !files.maps.empty();
+        wishes.light_parts = wants_light_parts(options.aovs);
+        wishes.save_photons = options.save_photons;
+        wishes.load_photons = options.load_photons;
+        wishes.refinement = refinement_of(options);
+        wishes.show = write_pictures;
+        wishes.budgets = options.budgets;
+        wishes.on_part = viewer_of(viewer);
+        wishes.before_passes = [](const std::vector<std::string>& notes) {
+            for (const std::string& note : notes) print_note(note);
+        };
         reuse.scene = identity_of(loaded);
         Rendering r = render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, reuse, passes);
-        for (const std::string& note : notes_of(r)) print_note(note);
-        report_faults(r.faults);
+        for (const std::string& note : field_notes(r)) print_note(note);
+        for (const std::string& line : fault_warnings(r)) print_warning(line);
         write_results(loaded, r, options, files, reuse, passes);
         const int code = code_of(r, options);
         if (options.frames) keep(reuse, r);

@@ -42,6 +42,10 @@ Hasher base_hash(const SceneIdentity& scene, const World& world) {
     return hash;
 }
 
+// Whoever adds a setting asks here whether results hang on it: then it belongs into the keys.
+static_assert(sizeof(PhotonSettings) == 40 && sizeof(RenderSettings) == 128 && sizeof(RadiositySettings) == 48,
+              "a new setting?");
+
 void add_photon_settings(Hasher& hash, const PhotonSettings& s) {
     hash.add(std::uint64_t{s.wanted});
     hash.add(std::uint64_t{s.global ? 1u + *s.global : 0u});
@@ -134,6 +138,11 @@ struct Writer {
         const auto* from = reinterpret_cast<const unsigned char*>(image.pixels.data());
         bytes.insert(bytes.end(), from, from + image.pixels.size() * sizeof(T));
     }
+    template <class T>
+    void add(const std::vector<T>& values) {
+        add(values.size());
+        for (const T& value : values) add(value);
+    }
 };
 
 struct Reader {
@@ -163,6 +172,15 @@ struct Reader {
         std::memcpy(static_cast<void*>(image.pixels.data()), bytes.data() + at, size);
         at += size;
     }
+    template <class T>
+    void take(std::vector<T>& values) {
+        std::size_t count = 0;
+        take(count);
+        whole = whole && count <= (bytes.size() - at) / sizeof(T);
+        if (!whole) return;
+        values.resize(count);
+        for (T& value : values) take(value);
+    }
     bool done() const { return whole && at == bytes.size(); }
 };
 
@@ -179,6 +197,7 @@ std::vector<unsigned char> bytes_of(const RenderResult& light) {
     Writer out;
     out.bytes.reserve(light.layer.color.pixels.size() * (sizeof(Color) + sizeof(float)) + 128);
     out.add(light.faults);
+    out.add(light.fault_places);
     out.add(light.camera_rays);
     out.add(light.gathers);
     out.add(light.layer.color);
@@ -339,6 +358,7 @@ bool take_light(Reuse& reuse, Rendering& r) {
     RenderResult light;
     Reader in{*bytes};
     in.take(light.faults);
+    in.take(light.fault_places);
     in.take(light.camera_rays);
     in.take(light.gathers);
     in.take(light.layer.color, r.settings.render.width, r.settings.render.height);

@@ -2,6 +2,7 @@
 // `pnr watch`: renders again whenever the scene is saved, with just the passes that the change needs.
 #include "cli/commands.h"
 
+#include "cli/faults.h"
 #include "cli/interrupt.h"
 #include "cli/load.h"
 #include "cli/map_files.h"
@@ -88,15 +89,22 @@ void paint_once(const Options& options, const std::vector<fs::path>& pictures, L
     }
     reuse.scene = scene;
     Passes passes(options.progress, !last.any);
-    const Wishes wishes{
-        options.crop, !options.maps.empty(), wants_light_parts(options.aovs), {}, {}, {}, {}, options.budgets,
-        {},           viewer_of(viewer)};
+    Wishes wishes;
+    wishes.crop = options.crop;
+    wishes.maps = !options.maps.empty();
+    wishes.light_parts = wants_light_parts(options.aovs);
+    wishes.budgets = options.budgets;
+    wishes.on_part = viewer_of(viewer);
+    wishes.before_passes = [](const std::vector<std::string>& notes) {
+        for (const std::string& note : notes) print_note(note);
+    };
     Rendering r = [&] {
         const StopOnChange stop(watched, passes);
         return render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, reuse, passes);
     }();
     if (!r.stopped) {
         const std::string why = what_changed(last, reuse.keys, r.plan.paint);
+        for (const std::string& line : fault_warnings(r)) print_warning(line);
         write_outputs(*loaded.scene, r, options, pictures, passes);
         print_note(fmt::format("{} after {:.2f} s; {}: {}", pictures.front().string(),
                                Passes::elapsed() - began, why, one_line(passes_to_run(r, wishes))));
