@@ -80,7 +80,8 @@ int run_program(const std::vector<std::string>& arguments) {
         if (options.command == "fmt") return run_fmt(options);
         if (options.command == "init") return run_init(options);
         if (options.command == "lsp") return run_lsp(options);
-        return run_render(options);
+        if (options.command == "watch") return run_watch(options);
+        return options.shows.empty() ? run_render(options) : run_show(options);
     } catch (const UsageError& error) {
         print_error(error.what());
         std::fputs("`pnr help` and `pnr help COMMAND` explain the command line\n", stderr);

@@ -39,7 +39,8 @@ std::optional<DiskCache> users_cache() {
     DiskCache cache;
     const char* const said = std::getenv("XDG_CACHE_HOME");
     const char* const home = std::getenv("HOME");
-    if (said != nullptr && fs::path(said).is_absolute()) // a relative one is to be ignored, says the specification
+    if (said != nullptr &&
+        fs::path(said).is_absolute()) // a relative one is to be ignored, says the specification
         cache.folder = fs::path(said) / "pnr";
     else if (home != nullptr && fs::path(home).is_absolute())
         cache.folder = fs::path(home) / ".cache" / "pnr";
@@ -55,19 +56,22 @@ fs::path entry_path(const DiskCache& cache, const std::string& kind, std::uint64
 namespace {
 
 // Nothing if the file is not the whole entry that it should be.
-std::optional<std::vector<unsigned char>> read_entry(std::ifstream& in, std::uintmax_t size, std::uint64_t key) {
+std::optional<std::vector<unsigned char>> read_entry(std::ifstream& in, std::uintmax_t size,
+                                                     std::uint64_t key) {
     EntryHeader header;
     if (!in.read(reinterpret_cast<char*>(&header), sizeof header)) return {};
     if (header.magic != entry_magic || header.key != key || header.size != size - sizeof header) return {};
     std::vector<unsigned char> bytes(header.size);
-    if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()))) return {};
+    if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
+        return {};
     if (hash_bytes(bytes) != header.checksum) return {};
     return bytes;
 }
 
 } // namespace
 
-std::optional<std::vector<unsigned char>> load_entry(const DiskCache& cache, const std::string& kind, std::uint64_t key) {
+std::optional<std::vector<unsigned char>> load_entry(const DiskCache& cache, const std::string& kind,
+                                                     std::uint64_t key) {
     const fs::path path = entry_path(cache, kind, key);
     std::error_code error;
     const std::uintmax_t size = fs::file_size(path, error);
@@ -120,7 +124,8 @@ void drop_oldest(const DiskCache& cache) {
     std::uintmax_t all = 0;
     std::error_code error, ignored;
     const auto now = fs::file_time_type::clock::now();
-    for (fs::directory_iterator file(cache.folder, error), last; !error && file != last; file.increment(error)) {
+    for (fs::directory_iterator file(cache.folder, error), last; !error && file != last;
+         file.increment(error)) {
         if (is_leftover(*file, now)) fs::remove(file->path(), ignored);
         std::error_code gone; // another run may have dropped it
         Entry entry{file->path(), file->last_write_time(gone), 0};

@@ -138,7 +138,8 @@ std::uint64_t build_identity() {
 }
 
 std::uint64_t reader_identity() {
-    BuildIds ids{{}, {"pnr_image", "pnr_font", "OpenImageIO", "OpenEXR", "png", "jpeg", "tiff", "webp", "freetype"}};
+    BuildIds ids{
+        {}, {"pnr_image", "pnr_font", "OpenImageIO", "OpenEXR", "png", "jpeg", "tiff", "webp", "freetype"}};
     dl_iterate_phdr(add_build_id, &ids);
     return ids.hash.value;
 }
@@ -177,7 +178,8 @@ AssetsRead read_assets(const std::vector<std::string>& assets) {
         if (bytes.size() != read.stamps.back().size) return {};
         const std::string ending = file.extension().string();
         hash.add(ending); // a mesh's form is told by its name
-        constexpr std::string_view ours[] = {".ply", ".PLY", ".obj", ".OBJ", ".off", ".OFF", ".stl", ".STL", ".mtl", ".df3"};
+        constexpr std::string_view ours[] = {".ply", ".PLY", ".obj", ".OBJ", ".off",
+                                             ".OFF", ".stl", ".STL", ".mtl", ".df3"};
         read.pictures_or_fonts |= std::find(std::begin(ours), std::end(ours), ending) == std::end(ours);
         hash.add(hash_bytes(bytes));
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the bits of a result hang on beside the scene's own words: this build of the program, the machine's kind, and
-// the files that the scene names.
+// What the bits of a result hang on beside the scene's own words: this build of the program, the machine's
+// kind, and the files that the scene names.
 #pragma once
 
 #include <bit>
@@ -25,9 +25,9 @@ struct Hasher {
 // Of a file's bytes, fast: four words at a time.
 std::uint64_t hash_bytes(std::span<const unsigned char> bytes);
 
-// Of the program's own build and of the libraries that it starts with, by the build ids that linkers put into them, and of
-// what the processor can do: numbers of the C library differ with it. Two runs with the same one give the same bits. The
-// first call must come before modules are loaded.
+// Of the program's own build and of the libraries that it starts with, by the build ids that linkers put into
+// them, and of what the processor can do: numbers of the C library differ with it. Two runs with the same one
+// give the same bits. The first call must come before modules are loaded.
 std::uint64_t build_identity();
 // Likewise of the libraries that read pictures and fonts, once they are loaded.
 std::uint64_t reader_identity();

@@ -22,16 +22,6 @@ Layer empty_layer(const PictureView& view) {
     return {Image<Color>(view.width, view.height), Image<float>(view.width, view.height)};
 }
 
-std::vector<std::string> expected_passes(const Plan& plan, const Wishes& wishes) {
-    std::vector<std::string> names{"parse", "build"};
-    if (plan.photons && wishes.load_photons.empty()) names.emplace_back("photons");
-    if (plan.kdtree) names.emplace_back("kdtree");
-    names.emplace_back("gbuffer");
-    if (plan.paint) names.insert(names.end(), {"sparse", "orient", "informative", "ilic"});
-    names.insert(names.end(), {"render", "write"});
-    return names;
-}
-
 // The first photon map: traced, or one that an earlier run has kept.
 PhotonMap first_photons(const Scene& scene, const Rendering& r, const Wishes& wishes, bool field, Passes& passes) {
     PhotonMap map;
@@ -53,6 +43,29 @@ void save_if_asked(const Scene& scene, const Rendering& r, const Wishes& wishes,
 }
 
 } // namespace
+
+std::vector<std::string> passes_to_run(const Rendering& r, const Wishes& wishes) {
+    const Plan& plan = r.plan;
+    std::vector<std::string> names{"parse", "build"};
+    const auto add = [&](const char* name) {
+        const bool kept = std::any_of(plan.left_out.begin(), plan.left_out.end(),
+                                      [&](const LeftOut& left) { return left.what == name; });
+        if (!kept) names.emplace_back(name);
+        return !kept;
+    };
+    const bool traced = plan.photons && wishes.load_photons.empty() && add("photons");
+    const bool sources = plan.paint && add("sparse"), light = add("render");
+    if (plan.kdtree && (traced || sources || light)) names.emplace_back("kdtree");
+    add("gbuffer");
+    if (plan.paint) names.insert(names.end(), {"orient", "informative", "ilic"});
+    names.emplace_back("write");
+    const auto place = [](const std::string& name) {
+        const std::vector<std::string>& all = pass_names();
+        return std::find(all.begin(), all.end(), name) - all.begin();
+    };
+    std::sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) { return place(a) < place(b); });
+    return names;
+}
 
 PhotonMap make_photons(const Rendering& r, const Settings& settings, int batch, double shrink, bool field,
                        Passes& passes) {
@@ -78,7 +91,7 @@ void add_field(const Rendering& r, const Settings& settings, double shrink, Phot
     });
 }
 
-PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> sources) {
+PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> sources, bool strokes) {
     PaintResult p;
     const std::uint64_t seed = r.settings.render.seed;
     p.sparse = sources ? std::move(*sources) : passes.run("sparse", [&](const Progress& progress) {
@@ -92,6 +105,7 @@ PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> s
     p.informative = passes.run("informative", [&](const Progress& progress) {
         return make_informative_map(p.sparse, r.world, r.gbuffer, seed, progress);
     });
+    if (!strokes) return p;
     p.layer = passes.run("ilic", [&](const Progress& progress) {
         return convolve(p.informative, find_seats(r.world, r.gbuffer, r.photons), r.world, r.gbuffer, seed, progress);
     });
@@ -154,6 +168,8 @@ void check_picture(const PictureSize& size, const Budgets& budgets) {
                                  size.width, size.height, budgets.pixels, pixels));
 }
 
+} // namespace
+
 void check_photons(const Scene& scene, const World& world, const Settings& settings, const Budgets& budgets) {
     const std::int64_t count = plan_emission(world, settings.photons).count;
     if (count <= budgets.photons) return;
@@ -163,9 +179,15 @@ void check_photons(const Scene& scene, const World& world, const Settings& setti
                                  count, budgets.photons, count));
 }
 
+namespace {
+
 // Strokes and fills reach across the picture, so a crop of a painting is cut from the whole painting.
 PixelRect traced_window(const Rendering& r, const Wishes& wishes, const PictureView& view) {
     return r.plan.paint || wishes.maps ? whole(view) : grow(r.window, 1, view.width, view.height);
+}
+
+void tell(const Rendering& r, const Wishes& wishes, RenderedPart part, const PixelRect& where) {
+    if (wishes.on_part) wishes.on_part(r, part, where);
 }
 
 void look(Rendering& r, const Wishes& wishes, const PictureView& view, Passes& passes) {
@@ -178,25 +200,92 @@ void render_in_passes(const Scene& scene, Rendering& r, const Wishes& wishes, co
     r.photons = first_photons(scene, r, wishes, false, passes);
     save_if_asked(scene, r, wishes, passes);
     look(r, wishes, view, passes);
+    tell(r, wishes, RenderedPart::seen, whole(view));
     refine(r, wishes, passes);
 }
 
-// Each pass whose result is kept is left out; light at points is asked for by those two that look for it alone.
-void render_at_once(const Scene& scene, Rendering& r, const Wishes& wishes, const PictureView& view, Reuse& reuse,
+// Which results are taken from earlier renderings; the time that it takes counts for the pass it spares.
+struct Taken {
+    bool photons = false, seen = false, sources = false, light = false;
+};
+Taken take_all(Rendering& r, Reuse& reuse, Passes& passes) {
+    Taken taken;
+    const auto take = [&](bool& which, const char* pass, bool found) {
+        which = found;
+        passes.charge(pass);
+    };
+    take(taken.photons, "photons", take_photons(reuse, r));
+    take(taken.seen, "gbuffer", take_seen(reuse, r));
+    if (taken.photons) take(taken.sources, "sparse", take_sources(reuse, r));
+    take(taken.light, "render", take_light(reuse, r));
+    return taken;
+}
+
+template <class T>
+void copy_rows(Image<T>& to, const Image<T>& from, const PixelRect& rows) {
+    if (from.empty()) return;
+    if (to.empty()) to = Image<T>(from.width, from.height);
+    const auto begin = static_cast<std::ptrdiff_t>(rows.y0) * from.width, end = static_cast<std::ptrdiff_t>(rows.y1) * from.width;
+    std::copy(from.pixels.begin() + begin, from.pixels.begin() + end, to.pixels.begin() + begin);
+}
+
+void add_band(RenderResult& all, const RenderResult& band, const PixelRect& rows) {
+    copy_rows(all.layer.color, band.layer.color, rows);
+    copy_rows(all.layer.alpha, band.layer.alpha, rows);
+    all.parts.wanted = band.parts.wanted;
+    copy_rows(all.parts.direct, band.parts.direct, rows);
+    copy_rows(all.parts.indirect, band.parts.indirect, rows);
+    copy_rows(all.parts.caustic, band.parts.caustic, rows);
+    copy_rows(all.parts.specular, band.parts.specular, rows);
+    copy_rows(all.parts.photon_density, band.parts.photon_density, rows);
+    all.faults.nan += band.faults.nan;
+    all.faults.inf += band.faults.inf;
+    all.faults.negative += band.faults.negative;
+    all.camera_rays += band.camera_rays;
+    all.gathers += band.gathers;
+    all.stopped = band.stopped;
+}
+
+// For who looks on, band by band: a part of a picture has the bits that it has in the whole. Not where gathered light is
+// prepared for the whole picture each time.
+void find_light(Rendering& r, const Wishes& wishes, const Progress& progress) {
+    const PixelRect& window = r.window;
+    const bool bands = wishes.on_part && r.world.illumination != Illumination::radiosity;
+    const int rows = bands ? 32 : window.y1 - window.y0;
+    RenderResult& all = r.rendered;
+    all = {};
+    for (int y = window.y0; y < window.y1 && !all.stopped; y += rows) {
+        const PixelRect band{window.x0, y, window.x1, std::min(y + rows, window.y1)};
+        constexpr std::int64_t parts = 1000; // of a band
+        const auto of_all = [&](std::int64_t done, std::int64_t total) {
+            return progress((y - window.y0) * parts + (band.y1 - y) * parts * done / total, (window.y1 - window.y0) * parts);
+        };
+        RenderResult found = render(r.world, r.gbuffer, r.photons, r.settings, band, wishes.light_parts, of_all);
+        if (!bands) {
+            all = std::move(found);
+            return;
+        }
+        add_band(all, found, band);
+        tell(r, wishes, RenderedPart::light, band);
+    }
+}
+
+// Light at points is asked for by two passes alone, the one of the sources and the one of photoreal light.
+void render_at_once(const Scene& scene, Rendering& r, const Wishes& wishes, const PictureView& view, const Taken& taken,
                     Passes& passes) {
-    const bool lit = passes.run("render", [&](const Progress&) { return take_light(reuse, r); });
-    if (!passes.run("photons", [&](const Progress&) { return take_photons(reuse, r); }))
-        r.photons = first_photons(scene, r, wishes, false, passes);
+    if (!taken.photons) r.photons = first_photons(scene, r, wishes, false, passes);
     save_if_asked(scene, r, wishes, passes);
-    const bool sparse = passes.run("sparse", [&](const Progress&) { return take_sources(reuse, r); });
-    if (!lit || (r.plan.paint && !sparse)) add_field(r, r.settings, 1, r.photons, passes);
-    if (!passes.run("gbuffer", [&](const Progress&) { return take_seen(reuse, r); })) look(r, wishes, view, passes);
-    if (r.plan.paint)
-        r.paint = paint(r, passes, sparse ? std::optional(std::move(r.paint.sparse)) : std::nullopt);
-    if (!lit)
-        r.rendered = passes.run("render", [&](const Progress& progress) {
-            return render(r.world, r.gbuffer, r.photons, r.settings, r.window, wishes.light_parts, progress);
-        });
+    if (!taken.light || (r.plan.paint && !taken.sources)) add_field(r, r.settings, 1, r.photons, passes);
+    if (!taken.seen) look(r, wishes, view, passes);
+    tell(r, wishes, RenderedPart::seen, whole(view));
+    if (r.plan.paint) {
+        r.paint = paint(r, passes, taken.sources ? std::optional(std::move(r.paint.sparse)) : std::nullopt);
+        tell(r, wishes, RenderedPart::paint, whole(view));
+    }
+    if (!taken.light)
+        passes.run("render", [&](const Progress& progress) { find_light(r, wishes, progress); });
+    else
+        tell(r, wishes, RenderedPart::light, r.window);
     r.stopped = r.rendered.stopped;
 }
 
@@ -223,14 +312,15 @@ Rendering render_scene(const Scene& scene, const Settings& settings, const Wishe
     Rendering r = plan_rendering(scene, settings, wishes, reuse, passes);
     if (wishes.before_passes) wishes.before_passes(r.world.notes);
     if (r.plan.photons && wishes.load_photons.empty()) check_photons(scene, r.world, r.settings, wishes.budgets);
-    passes.expect(expected_passes(r.plan, wishes));
     stop_gently();
+    const Taken taken = take_all(r, reuse, passes);
+    passes.expect(passes_to_run(r, wishes));
     const PictureView view{r.world.camera, r.settings.render.width, r.settings.render.height};
     try {
         if (wishes.refinement)
             render_in_passes(scene, r, wishes, view, passes);
         else
-            render_at_once(scene, r, wishes, view, reuse, passes);
+            render_at_once(scene, r, wishes, view, taken, passes);
     } catch (const Interrupted&) {
         r.stopped = true;
     }

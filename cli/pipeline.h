@@ -29,6 +29,9 @@ struct Refinement {
     std::optional<int> passes;
 };
 
+// What a rendering has got, piece by piece: the G-buffer; the painting's maps and layer; some of the photoreal light.
+enum class RenderedPart { seen, paint, light };
+
 // What is wanted beside the picture.
 struct Wishes {
     std::optional<CropWord> crop;
@@ -43,6 +46,8 @@ struct Wishes {
     std::function<bool(struct Rendering&)> after_pass;
     // Called with World::notes, once that is built.
     std::function<void(const std::vector<std::string>&)> before_passes;
+    // Called with each part that is there; light comes in bands of rows, or in passes of the whole.
+    std::function<void(const struct Rendering&, RenderedPart, const PixelRect&)> on_part;
 };
 
 // All that a rendering leaves behind. Images have the picture's full size; pixels outside `window` are 0.
@@ -69,11 +74,17 @@ struct Rendering {
 // The size of the picture: what the settings say, the missing side from the camera's shape.
 PictureSize picture_size(const Camera& camera, const RenderSettings& settings);
 
+// The passes that a rendering runs, in their order: what its plan needs but for what is kept of earlier ones.
+std::vector<std::string> passes_to_run(const Rendering& r, const Wishes& wishes);
+
+// Throws SceneError if more photons are asked for than may be.
+void check_photons(const Scene& scene, const World& world, const Settings& settings, const Budgets& budgets);
+
 // Puts the two layers together as r.picture and counts what no file can hold.
 void complete_picture(Rendering& r);
 // Pass 2 [LW10 3.2]: sparse map, orientation, informative map, ILIC.
-// `sources`: the sparse map, if it is known.
-PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> sources = {});
+// `sources`: the sparse map, if it is known. `strokes`: the last step is done too.
+PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> sources, bool strokes = true);
 // Pass 1 [LW10 3.1] and its kd-tree. `shrink`: see progressive.h.
 PhotonMap make_photons(const Rendering& r, const Settings& settings, int batch, double shrink, bool field, Passes& passes);
 // Smooth indirect light over a map that has its tree, where the scene needs it.

@@ -11,6 +11,7 @@
 #include "cli/pipeline.h"
 #include "cli/report.h"
 #include "cli/stats.h"
+#include "cli/tev_view.h"
 #include "core/atomic_file.h"
 #include "core/parallel.h"
 
@@ -38,16 +39,6 @@ Files files_of(const Options& options, const AnimationFrame& frame) {
     if (!files.maps.empty()) files.maps = numbered(files.maps, frame.number);
     if (!files.stats.empty() && files.stats != "-") files.stats = numbered(files.stats, frame.number);
     return files;
-}
-
-void check_aovs(const std::vector<std::string>& asked) {
-    const std::vector<std::string>& known = aov_names();
-    for (const std::string& name : asked) {
-        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        const std::string_view near = nearest_word(name, {known.begin(), known.end()});
-        throw UsageError(fmt::format("--aov: there is no part `{}`{}", name,
-                                     near.empty() ? "" : fmt::format("; did you mean `{}`?", near)));
-    }
 }
 
 bool exists(const fs::path& file) { return file != "-" && fs::exists(file); }
@@ -84,13 +75,6 @@ void write_results(const LoadResult& loaded, const Rendering& r, const Options& 
         print_answer(text);
     else
         write_file_atomically(files.stats, text);
-}
-
-bool wants_light_parts(const Options& options) {
-    return std::any_of(options.aovs.begin(), options.aovs.end(), [](const std::string& name) {
-        return name == "direct" || name == "indirect" || name == "caustic" || name == "specular" ||
-               name == "photon.density";
-    });
 }
 
 bool wants_error(const Options& options) {
@@ -138,12 +122,21 @@ int render_frame(const Options& options, const AnimationFrame& frame, Reuse& reu
             for (const fs::path& picture : pictures)
                 write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
         };
-        Wishes wishes{options.crop,         !files.maps.empty(),     wants_light_parts(options),
-                            options.save_photons, options.load_photons,    refinement_of(options),
-                            write_pictures,       options.budgets,        {},         {}};
+        std::optional<TevView> viewer;
+        if (!options.tev.empty()) viewer.emplace(options.tev, "pnr: " + pictures.front().string());
+        Wishes wishes;
+        wishes.crop = options.crop;
+        wishes.maps = !files.maps.empty();
+        wishes.light_parts = wants_light_parts(options.aovs);
+        wishes.save_photons = options.save_photons;
+        wishes.load_photons = options.load_photons;
+        wishes.refinement = refinement_of(options);
+        wishes.show = write_pictures;
+        wishes.budgets = options.budgets;
         wishes.before_passes = [](const std::vector<std::string>& notes) {
             for (const std::string& note : notes) print_note(note);
         };
+        wishes.on_part = viewer_of(viewer);
         reuse.scene = identity_of(loaded);
         Rendering r = render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, reuse, passes);
         for (const std::string& note : field_notes(r)) print_note(note);

@@ -60,8 +60,8 @@ void add_render_settings(Hasher& hash, const RenderSettings& s) {
     hash.add(static_cast<std::uint64_t>(s.samples_min));
     hash.add(static_cast<std::uint64_t>(s.samples_max));
     hash.add(s.contrast);
-    for (const double value : {s.grid.threshold, static_cast<double>(s.grid.depth), s.grid.jitter, s.grid.gamma,
-                               s.grid.value_gamma})
+    for (const double value : {s.grid.threshold, static_cast<double>(s.grid.depth), s.grid.jitter,
+                               s.grid.gamma, s.grid.value_gamma})
         hash.add(value);
     hash.add(static_cast<std::uint64_t>(s.gather_effort));
     hash.add(std::uint64_t{s.sharp});
@@ -98,7 +98,8 @@ std::uint64_t seen_key(Hasher hash, const SceneIdentity& scene, const Rendering&
     add(hash, r.world.camera.right);
     add(hash, r.world.camera.up);
     add_render_settings(hash, r.settings.render);
-    for (const WorldObject& object : r.world.objects) hash.add(std::uint64_t{object.npr && object.paint.mix > 0});
+    for (const WorldObject& object : r.world.objects)
+        hash.add(std::uint64_t{object.npr && object.paint.mix > 0});
     for (const int side : {r.window.x0, r.window.y0, r.window.x1, r.window.y1})
         hash.add(static_cast<std::uint64_t>(side));
     return hash.value;
@@ -159,7 +160,8 @@ struct Reader {
         int w = 0, h = 0;
         take(w);
         take(h);
-        const std::size_t size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(T);
+        const std::size_t size =
+            static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * sizeof(T);
         whole = whole && w == width && h == height && bytes.size() - at >= size;
         if (!whole) return;
         image = Image<T>(width, height);
@@ -199,19 +201,27 @@ std::vector<unsigned char> bytes_of(const RenderResult& light) {
     return std::move(out.bytes);
 }
 
+// Those pixels alone that hold something.
 std::vector<unsigned char> bytes_of(const SparseMap& sources) {
     Writer out;
-    out.bytes.reserve(sources.pixels.size() * sizeof(SourcePixel) + 16);
-    out.add(sources);
+    for (std::size_t i = 0; i < sources.pixels.size(); ++i) {
+        if (sources.pixels[i].object == 0) continue;
+        out.add(static_cast<std::uint64_t>(i));
+        out.add(sources.pixels[i]);
+    }
     return std::move(out.bytes);
 }
 
 // ---- what is said about it
 
-constexpr const char* in_memory = "nothing but camera or paint has changed since the rendering before: its map is used again";
-constexpr const char* on_disk = "nothing but camera or paint has changed since an earlier run: its map is used again";
-constexpr const char* paint_in_memory = "nothing but paint has changed since the rendering before: its result is used again";
-constexpr const char* paint_on_disk = "nothing but paint has changed since an earlier run: its result is used again";
+constexpr const char* in_memory =
+    "nothing but camera or paint has changed since the rendering before: its map is used again";
+constexpr const char* on_disk =
+    "nothing but camera or paint has changed since an earlier run: its map is used again";
+constexpr const char* paint_in_memory =
+    "nothing but paint has changed since the rendering before: its result is used again";
+constexpr const char* paint_on_disk =
+    "nothing but paint has changed since an earlier run: its result is used again";
 
 void say(Rendering& r, const char* what, const char* why) { r.plan.left_out.push_back({what, why}); }
 
@@ -239,13 +249,14 @@ bool fits_world(const GBuffer& seen, const World& world) {
 } // namespace
 
 SceneIdentity identity_of(const LoadResult& loaded) {
-    return {loaded.world_hash, loaded.camera_hash, read_assets(loaded.assets)};
+    return {loaded.world_hash, loaded.camera_hash, loaded.paint_hash, read_assets(loaded.assets)};
 }
 
 void find_keys(Reuse& reuse, const Rendering& r, const Wishes& wishes) {
     reuse.keys = {};
     const bool whole_run = !wishes.refinement && wishes.load_photons.empty() && r.settings.render.prune;
-    if (!reuse.scene || !whole_run || reuse.scene->assets.hash == 0 || !unchanged(reuse.scene->assets)) return;
+    if (!reuse.scene || !whole_run || reuse.scene->assets.hash == 0 || !unchanged(reuse.scene->assets))
+        return;
     const Hasher base = base_hash(*reuse.scene, r.world);
     if (r.plan.photons) {
         add_photon_keys(base, r, reuse.keys);
@@ -314,13 +325,18 @@ bool take_sources(Reuse& reuse, Rendering& r) {
     if (key == 0 || !reuse.disk) return false;
     const auto bytes = load_entry(*reuse.disk, "sources", key);
     if (!bytes) return false;
-    SparseMap sources;
+    SparseMap sources(r.settings.render.width, r.settings.render.height);
     Reader in{*bytes};
-    in.take(sources, r.settings.render.width, r.settings.render.height);
-    const bool fits = std::all_of(sources.pixels.begin(), sources.pixels.end(), [&](const SourcePixel& s) {
-        return s.photon < static_cast<std::int64_t>(r.photons.photons.size()) && s.object < r.world.objects.size();
-    });
-    if (!in.done() || !fits) return refuse(reuse, "sources", key);
+    while (in.whole && !in.done()) {
+        std::uint64_t pixel = 0;
+        SourcePixel source;
+        in.take(pixel);
+        in.take(source);
+        in.whole = in.whole && pixel < sources.pixels.size() && source.object < r.world.objects.size() &&
+                   source.photon < static_cast<std::int64_t>(r.photons.photons.size());
+        if (in.whole) sources.pixels[pixel] = source;
+    }
+    if (!in.done()) return refuse(reuse, "sources", key);
     r.paint.sparse = std::move(sources);
     say(r, "sparse", paint_on_disk);
     return true;
@@ -352,26 +368,33 @@ bool take_light(Reuse& reuse, Rendering& r) {
 void store_on_disk(const Reuse& reuse, const Rendering& r) {
     if (!reuse.disk || !reuse.scene || r.stopped || !unchanged(reuse.scene->assets)) return;
     const DiskCache& disk = *reuse.disk;
-    const auto is_new = [&](const char* kind, std::uint64_t key) {
-        std::error_code error;
-        return key != 0 && !fs::exists(entry_path(disk, kind, key), error);
+    const auto is_new = [&](const char* what, std::uint64_t key) {
+        return key != 0 && std::none_of(r.plan.left_out.begin(), r.plan.left_out.end(),
+                                        [&](const LeftOut& left) { return left.what == what; });
     };
-    if (is_new("photons", reuse.keys.photons) && may_store(disk, r.photons.photons.size() * (sizeof(Photon) + sizeof(Vec3f)))) {
+    if (is_new("photons", reuse.keys.photons) &&
+        may_store(disk, r.photons.photons.size() * (sizeof(Photon) + sizeof(Vec3f)))) {
         try {
             save_photons(r.photons, reuse.keys.photons, entry_path(disk, "photons", reuse.keys.photons));
         } catch (const FileError&) { // not kept
         }
     }
-    if (is_new("seen", reuse.keys.seen)) store_entry(disk, "seen", reuse.keys.seen, bytes_of(r.gbuffer));
-    if (is_new("sources", reuse.keys.sources)) store_entry(disk, "sources", reuse.keys.sources, bytes_of(r.paint.sparse));
-    if (is_new("light", reuse.keys.light)) store_entry(disk, "light", reuse.keys.light, bytes_of(r.rendered));
+    if (is_new("gbuffer", reuse.keys.seen)) store_entry(disk, "seen", reuse.keys.seen, bytes_of(r.gbuffer));
+    if (is_new("sparse", reuse.keys.sources))
+        store_entry(disk, "sources", reuse.keys.sources, bytes_of(r.paint.sparse));
+    if (is_new("render", reuse.keys.light))
+        store_entry(disk, "light", reuse.keys.light, bytes_of(r.rendered));
     drop_oldest(disk);
 }
 
 void keep(Reuse& reuse, Rendering& r) {
-    reuse.kept = {};
-    if (r.stopped) return;
     reuse.kept = reuse.keys;
+    if (r.stopped) { // passes that were not finished have left nothing
+        reuse.kept.light = 0;
+        if (r.photons.photons.empty()) reuse.kept.photons = reuse.kept.photons_about = 0;
+        if (r.gbuffer.seen.empty()) reuse.kept.seen = 0;
+        if (r.paint.sparse.empty()) reuse.kept.sources = 0;
+    }
     reuse.photons = std::move(r.photons);
     reuse.seen = std::move(r.gbuffer);
     reuse.sources = std::move(r.paint.sparse);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What one rendering leaves behind and a later one need not make again: of the frame before, of the last time that the
-// scene was saved, or of an earlier run. Each value has a key, the hash of all that it is made from, so that a value under
-// the right key has the bits that making it anew would give.
+// What one rendering leaves behind and a later one need not make again: of the frame before, of the last time
+// that the scene was saved, or of an earlier run. Each value has a key, the hash of all that it is made from,
+// so that a value under the right key has the bits that making it anew would give.
 //
 //  photons   from the world, its lights and which objects are painted; not from cameras or how paint is laid
 //  seen      the G-buffer: from the world and the camera
@@ -34,7 +34,7 @@ struct ReuseKeys { // 0: there is none, or it may not be used
 
 // What is known of a scene before its world is built.
 struct SceneIdentity {
-    std::uint64_t world = 0, camera = 0;
+    std::uint64_t world = 0, camera = 0, paint = 0;
     AssetsRead assets;
 };
 SceneIdentity identity_of(const LoadResult& loaded);
@@ -42,8 +42,8 @@ SceneIdentity identity_of(const LoadResult& loaded);
 struct Reuse {
     std::optional<SceneIdentity> scene; // of the rendering to come; unset: nothing is used again
     std::optional<DiskCache> disk;
-    // Frames of one film: where planes are endless and photons fall about the first frame's camera too, they are kept as
-    // long as the camera stands in their midst. Strokes that hang on photons would else swim.
+    // Frames of one film: where planes are endless and photons fall about the first frame's camera too, they
+    // are kept as long as the camera stands in their midst. Strokes that hang on photons would else swim.
     bool film = false;
     ReuseKeys keys; // of the rendering under way
 
@@ -66,7 +66,8 @@ bool take_light(Reuse& reuse, Rendering& r);
 
 // Writes to the disk what the rendering made anew.
 void store_on_disk(const Reuse& reuse, const Rendering& r);
-// Keeps all of it for the next one: the rendering loses it.
+// Keeps all of it for the next one, of a rendering that was stopped what it had finished: the rendering loses
+// it.
 void keep(Reuse& reuse, Rendering& r);
 
 // What an earlier run's values would spare this rendering: for `pnr plan`.

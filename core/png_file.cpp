@@ -52,7 +52,8 @@ int foretold(int filter, int a, int b, int c) {
     }
 }
 
-// One row through one filter; the sum of the differences' sizes says how well it will pack (the specification's advice).
+// One row through one filter; the sum of the differences' sizes says how well it will pack (the
+// specification's advice).
 long filter_row(int filter, const std::uint8_t* row, const std::uint8_t* above, std::size_t stride,
                 std::size_t pixel, unsigned char* out) {
     long sum = 0;
@@ -76,10 +77,12 @@ Bytes filtered(const BytePicture& picture) {
             const std::uint8_t* row = picture.bytes.data() + y * stride;
             long best = std::numeric_limits<long>::max();
             for (int filter = 0; filter < 5; ++filter) {
-                const long sum = filter_row(filter, row, y > 0 ? row - stride : nullptr, stride, pixel, trial.data());
+                const long sum =
+                    filter_row(filter, row, y > 0 ? row - stride : nullptr, stride, pixel, trial.data());
                 if (sum >= best) continue;
                 best = sum;
-                std::copy(trial.begin(), trial.end(), rows.begin() + static_cast<std::ptrdiff_t>(y * (stride + 1)));
+                std::copy(trial.begin(), trial.end(),
+                          rows.begin() + static_cast<std::ptrdiff_t>(y * (stride + 1)));
             }
         }
     });
@@ -127,7 +130,8 @@ void append_texts(Bytes& file, const Metadata& metadata) {
 } // namespace
 
 std::vector<unsigned char> png_bytes(const BytePicture& picture) {
-    const std::size_t pixels = static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
+    const std::size_t pixels =
+        static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height);
     if (picture.width < 1 || picture.height < 1 || (picture.channels != 3 && picture.channels != 4) ||
         picture.bytes.size() != pixels * static_cast<std::size_t>(picture.channels))
         throw std::invalid_argument("png_bytes: the bytes do not fill the picture");

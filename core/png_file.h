@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // PNG files of 8 bits, written without the image library, which takes longer to load than a picture to write
-// [PNG Specification, Third Edition, W3C 2003].
+// [PNG 2003].
 #pragma once
 
 #include "core/image_io.h"
@@ -10,7 +10,8 @@
 
 namespace pnr {
 
-// `channels` (3 or 4) interleaved bytes, rows from the top, sRGB transfer already applied, alpha not associated.
+// `channels` (3 or 4) interleaved bytes, rows from the top, sRGB transfer already applied, alpha not
+// associated.
 struct BytePicture {
     int width = 0, height = 0, channels = 3;
     std::vector<std::uint8_t> bytes;

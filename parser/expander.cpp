@@ -419,12 +419,12 @@ void tell_text(Expander& in, std::string_view text) {
 
 void remember_told(Expander& in, const void* thing) { in.known_as[thing] = in.told; }
 
-// A camera may use what the world was told, but the world must not change where a camera moves.
+// Cameras and paint may use what the world was told, but the world must not change where they do.
 void tell_thing(Expander& in, const void* thing) {
     const auto known = in.known_as.find(thing);
-    if (known == in.known_as.end()) return;
+    if (known == in.known_as.end() || in.listener == Listener::none) return;
     tell(in, known->second[0]);
-    if (in.listener == Listener::camera) tell(in, known->second[1]);
+    if (in.listener != Listener::world) tell(in, known->second[static_cast<std::size_t>(in.listener)]);
 }
 
 const DeclaredBlock* first_block(const ArrayValue& array) {

@@ -96,9 +96,10 @@ struct Counters {
     int nesting = 0, macro_depth = 0, include_depth = 0;
 };
 
-// Who makes a picture of what is read. Paint is told to nobody: it changes no light (World has what of it does), nor are
-// texts of #debug and the like.
-enum class Listener : std::uint8_t { world = 0, camera = 1, none = 2 };
+// Whom what is read concerns. Paint changes no light (what of it does is in World::objects); texts of #debug and the like
+// concern nobody.
+enum class Listener : std::uint8_t { world = 0, camera = 1, paint = 2, none = 3 };
+using Told = std::array<std::uint64_t, 3>; // a hash for each listener
 
 struct Expander {
     Sources& sources;
@@ -142,10 +143,10 @@ struct Expander {
     bool version_said = false;
     std::string debug_output;
     // Hashes of what the blocks were told (LoadResult::world_hash, camera_hash), and whose block is being read.
-    std::array<std::uint64_t, 2> told{1469598103934665603ull, 1469598103934665603ull};
+    Told told{1469598103934665603ull, 1469598103934665603ull, 1469598103934665603ull};
     Listener listener = Listener::world;
-    // Both hashes when a declared block, function or spline was read: what its name stands for.
-    std::unordered_map<const void*, std::array<std::uint64_t, 2>> known_as;
+    // The hashes when a declared block, function or spline was read: what its name stands for.
+    std::unordered_map<const void*, Told> known_as;
     std::vector<std::string> assets; // files that the blocks name: pictures, meshes, fonts ...
 
     Expander(Sources& all_sources, std::vector<Diagnostic>& all_diagnostics, const LoadOptions& load_options)

@@ -121,6 +121,7 @@ LoadResult load_scene_text(std::string text, const std::string& name, const Load
         for (const double said : versions) add_told(told, std::bit_cast<std::uint64_t>(said));
     result.world_hash = in.told[0];
     result.camera_hash = in.told[1];
+    result.paint_hash = in.told[2];
     result.assets = std::move(in.assets);
     result.debug_output = std::move(in.debug_output);
     if (in.errors > 0) return result;

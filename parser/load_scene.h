@@ -39,6 +39,7 @@ struct LoadResult {
     // same `assets` and the same objects painted (World) two runs describe the same world.
     std::uint64_t world_hash = 0;
     std::uint64_t camera_hash = 0;   // likewise of the cameras
+    std::uint64_t paint_hash = 0;    // likewise of paint
     std::vector<std::string> assets; // files that the scene names, each once: pictures, meshes, fonts, densities
 };
 

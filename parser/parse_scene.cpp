@@ -255,7 +255,7 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
         next(p);
         return parse_transform(p);
     case "npr"_kw: {
-        const Telling nobody(p.in, Listener::none);
+        const Telling painters(p.in, Listener::paint);
         next(p);
         PaintWord paint;
         parse_npr(p, paint);

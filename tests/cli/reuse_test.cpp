@@ -23,7 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
 
-// Two painted things, one of them half, a mirror, a picture, a mesh, a declared style and a little of all that names can do.
+// Two painted things, one of them half, a mirror, a picture, a mesh, a declared style and a little of all
+// that names can do.
 const char* const scene_text = R"(#declare Long = 9;
 #declare Side = 0.4;
 #declare Style = npr { ilic { length Long cell 3 } }
@@ -48,7 +49,8 @@ mesh { file "tri.off" pigment { rgb <0.2, 0.3, 0.9> } finish { Matt } translate 
 
 void write_scene(const TemporaryFolder& folder, const std::string& text) {
     folder.write("a.pnr", text);
-    folder.write("tri.off", "OFF\n4 4 0\n0 0 0\n0.4 0 0\n0 0.4 0\n0 0 0.4\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    folder.write("tri.off",
+                 "OFF\n4 4 0\n0 0 0\n0.4 0 0\n0 0.4 0\n0 0 0.4\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
 }
 
 std::string changed(std::string text, const std::string& from, const std::string& to) {
@@ -61,7 +63,8 @@ std::set<std::string> used_again(const TemporaryFolder& folder) {
     const nlohmann::json stats = nlohmann::json::parse(folder.read("stats.json"));
     std::set<std::string> names;
     for (const auto& left : stats["plan"]["left_out"])
-        if (left["why"].get<std::string>().find("used again") != std::string::npos) names.insert(left["what"]);
+        if (left["why"].get<std::string>().find("used again") != std::string::npos)
+            names.insert(left["what"]);
     return names;
 }
 
@@ -72,10 +75,12 @@ Words with(Words words, const Words& more) {
 
 const Words small{"render", "a.pnr", "-W", "32", "-H", "24", "--progress", "off"};
 
-// What is seen of a run, all of it: what lies behind the picture. EXR files say when they were written, so their pixels.
+// What is seen of a run, all of it: what lies behind the picture. EXR files say when they were written, so
+// their pixels.
 std::string all_maps(const TemporaryFolder& folder, const std::string& name) {
     std::string all = folder.read(name + "/photons.ply");
-    for (const char* file : {"gbuffer.exr", "sparse.exr", "informative.exr", "partial.exr", "photoreal.exr"}) {
+    for (const char* file :
+         {"gbuffer.exr", "sparse.exr", "informative.exr", "partial.exr", "photoreal.exr"}) {
         const ImageFile image = read_exr(folder / (name + "/" + file));
         const std::vector<float>& data = image.parts.at(0).data;
         all.append(reinterpret_cast<const char*>(data.data()), data.size() * sizeof(float));
@@ -89,7 +94,8 @@ std::set<std::string> render_both(const TemporaryFolder& folder, const Words& mo
     const Ran cached = run_pnr(folder, with(words, {"-o", "cached.png", "--stats", "stats.json"}));
     EXPECT_EQ(cached.code, 0) << what << cached.err;
     const std::set<std::string> names = used_again(folder);
-    const Ran fresh = run_pnr(folder, with(words, {"-o", "fresh.png", "--no-cache", "--stats", "stats.json"}));
+    const Ran fresh =
+        run_pnr(folder, with(words, {"-o", "fresh.png", "--no-cache", "--stats", "stats.json"}));
     EXPECT_EQ(fresh.code, 0) << what << fresh.err;
     EXPECT_EQ(used_again(folder), std::set<std::string>{}) << what;
     EXPECT_TRUE(folder.read("cached.png") == folder.read("fresh.png")) << what;
@@ -123,7 +129,8 @@ TEST(Reuse, PaintAloneRunsThePaintPassAlone) {
         {"radius 20", "radius 9"},
         {"npr { interpolation", "npr { paper_mode on interpolation"},
         {"npr { style oil", "npr { field along y style oil"},
-        {"npr { ilic { length Long cell 3 } }", "npr { field light relief 0.5, 1 ilic { length Long size 2 gaussian 5, 3 } }"},
+        {"npr { ilic { length Long cell 3 } }",
+         "npr { field light relief 0.5, 1 ilic { length Long size 2 gaussian 5, 3 } }"},
         {"// ", "// "},
     };
     TemporaryFolder folder;
@@ -136,7 +143,8 @@ TEST(Reuse, PaintAloneRunsThePaintPassAlone) {
         EXPECT_EQ(render_both(folder, {}, edit.to), all_passes) << edit.to;
     }
     write_scene(folder, text);
-    EXPECT_EQ(render_both(folder, {"-D", "Unused=3", "--exposure", "1", "--threads", "1"}, "options"), all_passes);
+    EXPECT_EQ(render_both(folder, {"-D", "Unused=3", "--exposure", "1", "--threads", "1"}, "options"),
+              all_passes);
 }
 
 TEST(Reuse, MapsHaveTheSameBits) {
@@ -207,33 +215,47 @@ TEST(Reuse, NothingIsUsedThatCouldHaveChanged) {
     write_scene(folder, scene_text);
     EXPECT_EQ(render_both(folder, {"--seed", "2"}, "seed"), std::set<std::string>{});
     EXPECT_EQ(render_both(folder, {"-D", "Matt=1", "--no-prune"}, "no-prune"), std::set<std::string>{});
-    EXPECT_EQ(render_both(folder, {"--quality", "draft"}, "quality"), std::set<std::string>{"photons"}); // their count is said
+    EXPECT_EQ(render_both(folder, {"--quality", "draft"}, "quality"),
+              std::set<std::string>{"photons"}); // their count is said
     // Files that the scene names.
-    write_scene(folder, changed(scene_text, "pigment { rgb 0.9 } }\n    finish", "pigment { image_map { \"wall.ppm\" } } }\n    finish"));
+    write_scene(folder, changed(scene_text, "pigment { rgb 0.9 } }\n    finish",
+                                "pigment { image_map { \"wall.ppm\" } } }\n    finish"));
     for (const char* blue : {"200", "100"}) {
-        folder.write("wall.ppm", std::string("P3\n2 2\n255\n250 20 20 20 250 20\n20 20 250 200 200 ") + blue + "\n");
+        folder.write("wall.ppm",
+                     std::string("P3\n2 2\n255\n250 20 20 20 250 20\n20 20 250 200 200 ") + blue + "\n");
         EXPECT_EQ(render_both(folder, {}, "picture"), std::set<std::string>{});
         EXPECT_EQ(render_both(folder, {}, "picture"), all_passes);
     }
     write_scene(folder, scene_text);
-    folder.write("tri.off", "OFF\n4 4 0\n0 0 0\n0.4 0 0\n0 0.4 0\n0 0 0.5\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
+    folder.write("tri.off",
+                 "OFF\n4 4 0\n0 0 0\n0.4 0 0\n0 0.4 0\n0 0 0.5\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n");
     EXPECT_EQ(render_both(folder, {}, "mesh"), std::set<std::string>{});
 }
 
 TEST(Reuse, NamesThatTradePlacesAreOtherThings) {
     const std::string tail = "camera { location <0, 1, -4> look_at 0 }\nlight_source { <3, 5, -4>, rgb 1 }\n"
                              "global_settings { photons { global on count 2000 } }\n"
-                             "object { A pigment { rgb 1 } npr { ilic { length 8 } } }\nbox { <-3, -1.2, -3>, <3, -1, 3> pigment { rgb 0.8 } }\n";
+                             "object { A pigment { rgb 1 } npr { ilic { length 8 } } }\nbox { <-3, -1.2, "
+                             "-3>, <3, -1, 3> pigment { rgb 0.8 } }\n";
     const std::string texts[] = {
         "#declare A = sphere { 0, 1 }\n#declare B = box { -0.7, 0.7 }\n" + tail,
         "#declare B = sphere { 0, 1 }\n#declare A = box { -0.7, 0.7 }\n" + tail,
         "camera { #declare A = sphere { 0, 0.9 } location 0 }\n#declare B = box { -0.7, 0.7 }\n" + tail,
-        "#declare F = function { x * x + y * y + z * z - 1 }\n#declare G = function { max(abs(x), abs(y), abs(z)) - 0.7 }\n"
-        "#declare A = isosurface { function { F(x, y, z) } contained_by { sphere { 0, 1.5 } } max_gradient 4 }\n" + tail,
-        "#declare G = function { x * x + y * y + z * z - 1 }\n#declare F = function { max(abs(x), abs(y), abs(z)) - 0.7 }\n"
-        "#declare A = isosurface { function { F(x, y, z) } contained_by { sphere { 0, 1.5 } } max_gradient 4 }\n" + tail,
-        "#declare G = function { x * x + y * y + z * z - 1 }\n#declare F = function { max(abs(x), abs(y), abs(z)) - 0.6 }\n"
-        "#declare A = isosurface { function { F(x, y, z) } contained_by { sphere { 0, 1.5 } } max_gradient 4 }\n" + tail,
+        "#declare F = function { x * x + y * y + z * z - 1 }\n#declare G = function { max(abs(x), abs(y), "
+        "abs(z)) - 0.7 }\n"
+        "#declare A = isosurface { function { F(x, y, z) } contained_by { sphere { 0, 1.5 } } max_gradient 4 "
+        "}\n" +
+            tail,
+        "#declare G = function { x * x + y * y + z * z - 1 }\n#declare F = function { max(abs(x), abs(y), "
+        "abs(z)) - 0.7 }\n"
+        "#declare A = isosurface { function { F(x, y, z) } contained_by { sphere { 0, 1.5 } } max_gradient 4 "
+        "}\n" +
+            tail,
+        "#declare G = function { x * x + y * y + z * z - 1 }\n#declare F = function { max(abs(x), abs(y), "
+        "abs(z)) - 0.6 }\n"
+        "#declare A = isosurface { function { F(x, y, z) } contained_by { sphere { 0, 1.5 } } max_gradient 4 "
+        "}\n" +
+            tail,
     };
     TemporaryFolder folder;
     for (const std::string& text : texts) {
@@ -311,7 +333,8 @@ std::uint64_t trace_world(const LoadResult& loaded, bool look) {
     const World world = build_world(*loaded.scene, settings);
     Hasher hash;
     const auto add_bytes = [&](const auto& values) {
-        hash.add(hash_bytes({reinterpret_cast<const unsigned char*>(values.data()), values.size() * sizeof(values[0])}));
+        hash.add(hash_bytes(
+            {reinterpret_cast<const unsigned char*>(values.data()), values.size() * sizeof(values[0])}));
     };
     PhotonMap map = trace_photons(world, settings.photons, settings.render.seed, 0, true);
     add_bytes(map.photons);
@@ -343,7 +366,8 @@ std::vector<std::pair<std::size_t, std::size_t>> numbers_in(const std::string& t
         const bool number = std::isdigit(static_cast<unsigned char>(text[i]));
         std::size_t end = i + 1;
         while ((word || number) && end < text.size() &&
-               (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '_' || (number && text[end] == '.')))
+               (std::isalnum(static_cast<unsigned char>(text[end])) || text[end] == '_' ||
+                (number && text[end] == '.')))
             ++end;
         if (number) found.emplace_back(i, end - i);
         i = end;
@@ -351,7 +375,8 @@ std::vector<std::pair<std::size_t, std::size_t>> numbers_in(const std::string& t
     return found;
 }
 
-// Every number of a text in turn is made another one: either the hashes tell it, or the same light comes of it.
+// Every number of a text in turn is made another one: either the hashes tell it, or the same light comes of
+// it.
 void expect_hashes_tell(const std::string& text, const std::string& name) {
     const LoadOptions options;
     const LoadResult before = load_scene_text(text, name, options);
@@ -362,7 +387,9 @@ void expect_hashes_tell(const std::string& text, const std::string& name) {
     for (const auto& [at, length] : numbers_in(text)) {
         const std::string number = text.substr(at, length);
         const LoadResult after = load_scene_text(
-            std::string(text).replace(at, length, number.find('.') == std::string::npos ? number + "1" : number + "7"), name, options);
+            std::string(text).replace(at, length,
+                                      number.find('.') == std::string::npos ? number + "1" : number + "7"),
+            name, options);
         if (!after.scene || after.world_hash != before.world_hash || mix_of(after) != mix) continue;
         ++untold;
         const bool same_camera = after.camera_hash == before.camera_hash;
@@ -388,9 +415,11 @@ TEST(DiskCache, DropsTheOldestEntries) {
     const std::vector<unsigned char> bytes(2000, 7);
     for (std::uint64_t key = 1; key <= 4; ++key) store_entry(cache, "x", key, bytes);
     const auto age = [&](std::uint64_t key, int minutes) {
-        fs::last_write_time(entry_path(cache, "x", key), fs::file_time_type::clock::now() - std::chrono::minutes(minutes));
+        fs::last_write_time(entry_path(cache, "x", key),
+                            fs::file_time_type::clock::now() - std::chrono::minutes(minutes));
     };
-    for (const auto& [key, minutes] : {std::pair{1, 30}, {2, 40}, {3, 50}, {4, 20}}) age(static_cast<std::uint64_t>(key), minutes);
+    for (const auto& [key, minutes] : {std::pair{1, 30}, {2, 40}, {3, 50}, {4, 20}})
+        age(static_cast<std::uint64_t>(key), minutes);
     EXPECT_EQ(load_entry(cache, "x", 3), bytes); // used now: no longer the oldest
     store_entry(cache, "x", 5, bytes);
     EXPECT_FALSE(load_entry(cache, "x", 2));

@@ -139,6 +139,48 @@ Ran run_pnr_and_signal(const TemporaryFolder& folder, const std::vector<std::str
     return run(folder, arguments, {}, "", signal, signal_at);
 }
 
+struct RunningPnr::Ends {
+    Pipe in, out, err;
+};
+
+RunningPnr::RunningPnr(const TemporaryFolder& folder, const std::vector<std::string>& arguments)
+    : ends_(std::make_unique<Ends>()) {
+    child_ = start(folder, arguments, {}, ends_->in, ends_->out, ends_->err);
+    Pipe::close_end(ends_->err.write);
+}
+
+RunningPnr::~RunningPnr() {
+    if (child_ < 0) return;
+    signal(SIGKILL);
+    end();
+}
+
+bool RunningPnr::says(const std::string& text) {
+    constexpr int longest_ms = 100'000; // on a machine that does much else
+    for (;;) {
+        const std::size_t at = err_.find(text, read_);
+        if (at != std::string::npos) {
+            read_ = at + text.size();
+            return true;
+        }
+        pollfd watched{ends_->err.read, POLLIN, 0};
+        if (::poll(&watched, 1, longest_ms) <= 0) return false;
+        char buffer[4096];
+        const ssize_t got = ::read(ends_->err.read, buffer, sizeof buffer);
+        if (got <= 0) return false;
+        err_.append(buffer, static_cast<std::size_t>(got));
+    }
+}
+
+void RunningPnr::signal(int signal) const { ::kill(child_, signal); }
+
+int RunningPnr::end() {
+    int status = 0;
+    ::waitpid(child_, &status, 0);
+    child_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
 std::string box_scene(const std::string& more) {
     return R"(camera { location <0, 1, -2.6> look_at <0, 0.9, 0> right x angle 50 }
 light_source { <0, 1.999, 0>, rgb 1 emitter { hemisphere 0.3, -y } power 60 }

@@ -31,7 +31,8 @@ void expect_same(const BytePicture& picture) {
     const auto channels = static_cast<std::size_t>(picture.channels);
     for (std::size_t i = 0; i < read.pixels.size(); ++i) {
         for (int c = 0; c < 3; ++c)
-            ASSERT_EQ(std::lround(255 * srgb_encode(read.pixels[i][c])), picture.bytes[i * channels + static_cast<std::size_t>(c)])
+            ASSERT_EQ(std::lround(255 * srgb_encode(read.pixels[i][c])),
+                      picture.bytes[i * channels + static_cast<std::size_t>(c)])
                 << i;
         if (channels == 4) {
             ASSERT_EQ(std::lround(255 * read.pixels[i].w), picture.bytes[i * channels + 3]) << i;
@@ -46,7 +47,8 @@ BytePicture picture_of(int width, int height, int channels) {
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x)
             for (int c = 0; c < channels; ++c) {
-                const int kinds[] = {static_cast<int>(rng.bits() & 255), 77, 3 * x + c, 5 * y, x * y / 7 + 2 * c};
+                const int kinds[] = {static_cast<int>(rng.bits() & 255), 77, 3 * x + c, 5 * y,
+                                     x * y / 7 + 2 * c};
                 picture.bytes.push_back(static_cast<std::uint8_t>(kinds[y / 8 % 5]));
             }
     return picture;
@@ -61,7 +63,8 @@ TEST(PngFile, EveryByteComesBack) {
 
 TEST(PngFile, AlphaComesBack) {
     BytePicture picture = picture_of(31, 47, 4);
-    for (std::size_t i = 3; i < picture.bytes.size(); i += 4) picture.bytes[i] |= 0x80; // black where nothing is seen
+    for (std::size_t i = 3; i < picture.bytes.size(); i += 4)
+        picture.bytes[i] |= 0x80; // black where nothing is seen
     expect_same(picture);
 }
 
