@@ -134,9 +134,14 @@ int render_frame(const Options& options, const AnimationFrame& frame, KeptPhoton
             for (const fs::path& picture : pictures)
                 write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
         };
-        Wishes wishes{options.crop,         !files.maps.empty(),     wants_light_parts(options),
-                            options.save_photons, options.load_photons,    refinement_of(options),
-                            write_pictures,       options.budgets,        {},         {}};
+        Wishes wishes;
+        wishes.crop = options.crop;
+        wishes.maps = !files.maps.empty();
+        wishes.light_parts = wants_light_parts(options);
+        wishes.save_photons = options.save_photons, wishes.load_photons = options.load_photons;
+        wishes.refinement = refinement_of(options);
+        wishes.show = write_pictures;
+        wishes.budgets = options.budgets;
         wishes.before_passes = [](const std::vector<std::string>& notes) {
             for (const std::string& note : notes) print_note(note);
         };
