@@ -194,6 +194,7 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
         ->type_name("DIR");
     app.add_option("--aov", words.aov, "Add these parts to EXR pictures (see below)")->type_name("NAME,...");
     app.add_option("--stats", options.stats, "Write times and counts as JSON")->type_name("FILE");
+    add_render_page(app, options);
     app.add_option("--save-photons", options.save_photons, "Keep the photon map")->type_name("FILE");
     app.add_option("--load-photons", options.load_photons, "Use a kept photon map of the same scene")
         ->type_name("FILE");

@@ -12,6 +12,8 @@ class App;
 
 namespace pnr {
 
+// --html of `render`.
+void add_render_page(CLI::App& app, Options& options);
 void add_fmt(CLI::App& parent, Options& options);
 void add_init(CLI::App& parent, Options& options);
 void add_lsp(CLI::App& parent, Options& options);
