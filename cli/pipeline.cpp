@@ -238,9 +238,8 @@ void add_band(RenderResult& all, const RenderResult& band, const PixelRect& rows
     copy_rows(all.parts.caustic, band.parts.caustic, rows);
     copy_rows(all.parts.specular, band.parts.specular, rows);
     copy_rows(all.parts.photon_density, band.parts.photon_density, rows);
-    all.faults.nan += band.faults.nan;
-    all.faults.inf += band.faults.inf;
-    all.faults.negative += band.faults.negative;
+    all.faults += band.faults;
+    merge_faults(all.fault_places, band.fault_places);
     all.camera_rays += band.camera_rays;
     all.gathers += band.gathers;
     all.stopped = band.stopped;
