@@ -94,10 +94,10 @@ void paint_once(const Options& options, const std::vector<fs::path>& pictures, L
     wishes.maps = !options.maps.empty();
     wishes.light_parts = wants_light_parts(options.aovs);
     wishes.budgets = options.budgets;
-    wishes.on_part = viewer_of(viewer);
     wishes.before_passes = [](const std::vector<std::string>& notes) {
         for (const std::string& note : notes) print_note(note);
     };
+    wishes.on_part = viewer_of(viewer);
     Rendering r = [&] {
         const StopOnChange stop(watched, passes);
         return render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, reuse, passes);
