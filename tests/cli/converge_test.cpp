@@ -105,9 +105,9 @@ TEST(Converge, CausesAddUp) {
     EXPECT_GT(*run[0].sample_noise, 0);
     Wishes wishes;
     wishes.refinement = Refinement{{}, {}, run[0].passes};
-    KeptPhotons kept;
+    Reuse kept;
     Passes passes(ProgressMode::off, false);
-    const Rendering other = render_scene(*loaded.scene, small_settings(loaded, 2), wishes, kept, 0, passes);
+    const Rendering other = render_scene(*loaded.scene, small_settings(loaded, 2), wishes, kept, passes);
     Image<Color> middle = other.rendered.layer.color;
     for (std::size_t i = 0; i < middle.pixels.size(); ++i)
         middle.pixels[i] = 0.5f * (middle.pixels[i] + run[0].photoreal.pixels[i]);
@@ -122,9 +122,9 @@ TEST(Converge, SamplesOfTheSameSeedAreTheSame) {
     Wishes wishes;
     wishes.refinement = Refinement{{}, {}, 5};
     const auto picture = [&] {
-        KeptPhotons kept;
+        Reuse kept;
         Passes passes(ProgressMode::off, false);
-        return render_scene(*loaded.scene, small_settings(loaded, 3), wishes, kept, 0, passes).picture.color.pixels;
+        return render_scene(*loaded.scene, small_settings(loaded, 3), wishes, kept, passes).picture.color.pixels;
     };
     const auto plain = picture();
     wishes.sample_seed = 3;
