@@ -12,6 +12,7 @@
 #include "cli/report.h"
 #include "cli/stats.h"
 #include "core/atomic_file.h"
+#include "core/parallel.h"
 
 #include <fmt/format.h>
 
@@ -70,10 +71,12 @@ std::vector<std::string> all_warnings(const LoadResult& loaded, const Rendering&
 void write_results(const LoadResult& loaded, const Rendering& r, const Options& options, const Files& files,
                    const Reuse& reuse, Passes& passes) {
     passes.run("write", [&](const Progress&) {
-        for (const fs::path& picture : files.pictures)
-            write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
-        if (!files.maps.empty()) write_maps(r, files.maps);
-        store_on_disk(reuse, r);
+        parallel_for(2, 1, [&](std::int64_t job, std::int64_t, std::int64_t) { // the cache is not waited for
+            if (job == 1) return store_on_disk(reuse, r);
+            for (const fs::path& picture : files.pictures)
+                write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
+            if (!files.maps.empty()) write_maps(r, files.maps);
+        });
     });
     if (files.stats.empty()) return;
     const std::string text = stats_json(*loaded.scene, r, passes.times(), all_warnings(loaded, r));
