@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/commands.h"
 
+#include "cli/forecast.h"
+#include "cli/identity.h"
 #include "cli/interrupt.h"
 #include "cli/load.h"
 #include "cli/pipeline.h"
@@ -39,12 +41,20 @@ int run_check(const Options& options) {
 // ---- plan ----
 
 int run_plan(const Options& options) {
+    const ThreadLimit limit(options.threads);
+    Passes passes(ProgressMode::off, true);
     LoadResult loaded;
-    if (!load_and_report(options, {}, loaded)) return exit_scene;
+    if (!passes.run("parse", [&](const Progress&) { return load_and_report(options, {}, loaded); })) return exit_scene;
     return with_scene_errors(loaded.sources, [&] {
-        const Settings settings = merge_settings(loaded.settings, options);
-        const Plan plan = make_plan(build_world(*loaded.scene, settings), settings, false);
-        print_answer(options.format == TextFormat::json ? plan_json(plan) : plan_text(plan));
+        Reuse reuse;
+        reuse.scene = identity_of(loaded);
+        if (options.cache) reuse.disk = users_cache();
+        Rendering r = plan_rendering(*loaded.scene, merge_settings(loaded.settings, options), {}, reuse, passes);
+        for (const std::string& note : r.world.notes) print_note(note);
+        note_stored(reuse, r);
+        const Plan plan = r.plan;
+        const Forecast f = forecast(std::move(r.world), r.settings, plan, passes.times());
+        print_answer(options.format == TextFormat::json ? plan_json(plan, f) : plan_text(plan, f));
         return exit_done;
     });
 }
@@ -53,6 +63,7 @@ int run_plan(const Options& options) {
 
 int run_program(const std::vector<std::string>& arguments) {
     install_signal_handlers();
+    build_identity(); // before modules are loaded
     try {
         const CommandLine line = parse_command_line(arguments);
         if (!line.answer.empty()) {
@@ -69,7 +80,8 @@ int run_program(const std::vector<std::string>& arguments) {
         if (options.command == "fmt") return run_fmt(options);
         if (options.command == "init") return run_init(options);
         if (options.command == "lsp") return run_lsp(options);
-        return run_render(options);
+        if (options.command == "watch") return run_watch(options);
+        return options.shows.empty() ? run_render(options) : run_show(options);
     } catch (const UsageError& error) {
         print_error(error.what());
         std::fputs("`pnr help` and `pnr help COMMAND` explain the command line\n", stderr);

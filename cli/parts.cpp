@@ -48,6 +48,15 @@ ImagePart error_part(const Rendering& r, const std::string& name, const Image<fl
     });
 }
 
+// Samples of each pixel that no picture can show.
+ImagePart numbers_part(const Rendering& r) {
+    Image<Vec3f> counts(r.settings.render.width, r.settings.render.height, Vec3f(0));
+    for (const FaultPlace& place : r.fault_places)
+        counts.at(place.x, place.y) = Vec3f(place.faults.nan, place.faults.inf, place.faults.negative);
+    return make_part({"numbers.nan", "numbers.inf", "numbers.negative"}, pixel_count(r),
+                     [&](std::size_t i, std::vector<float>& out) { append(out, counts.pixels[i]); });
+}
+
 ImagePart mask_part(const Rendering& r) {
     return make_part({"npr.mask"}, pixel_count(r), [&](std::size_t i, std::vector<float>& out) {
         out.push_back(r.gbuffer.coverage.pixels[i]);
@@ -82,6 +91,7 @@ const std::vector<Aov>& aovs() {
         {"photon.density", density_part},
         {"error.noise", [](R r) { return error_part(r, "error.noise", r.error.noise); }},
         {"error.bias", [](R r) { return error_part(r, "error.bias", r.error.bias); }},
+        {"numbers", numbers_part},
         {"sparse", sparse_part},
         {"informative", informative_part},
         {"partial", [](R r) { return layer_part(r.paint.layer); }},
@@ -207,6 +217,23 @@ Metadata radius_metadata(const Rendering& r) {
     }
     metadata.emplace_back("pnr:radius", largest);
     return metadata;
+}
+
+bool wants_light_parts(const std::vector<std::string>& aovs) {
+    return std::any_of(aovs.begin(), aovs.end(), [](const std::string& name) {
+        return name == "direct" || name == "indirect" || name == "caustic" || name == "specular" ||
+               name == "photon.density";
+    });
+}
+
+void check_aovs(const std::vector<std::string>& asked) {
+    const std::vector<std::string>& known = aov_names();
+    for (const std::string& name : asked) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        const std::string_view near = nearest_word(name, {known.begin(), known.end()});
+        throw UsageError(fmt::format("--aov: there is no part `{}`{}", name,
+                                     near.empty() ? "" : fmt::format("; did you mean `{}`?", near)));
+    }
 }
 
 } // namespace pnr

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/stats.h"
 
+#include "cli/faults.h"
+#include "cli/html_page.h"
+#include "cli/structures.h"
 #include "core/geometry.h"
+#include "core/irradiance_field.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -44,7 +48,8 @@ Json paint_counts(const Rendering& r) {
 
 // Bytes a triangle are those of the whole BVH: 0 where the scene has no triangles.
 Json ray_counts(const Rendering& r) {
-    Json rays{{"camera", r.rendered.camera_rays}, {"gathers", r.rendered.gathers}};
+    Json rays{{"camera", r.rendered.camera_rays}, {"gathers", r.rendered.gathers},
+              {"records", r.photons.field ? record_count(*r.photons.field) : 0}};
     if (!r.world.geometry) return rays;
     const GeometryStats stats = geometry_stats(*r.world.geometry);
     rays["triangles"] = stats.triangles;
@@ -56,6 +61,20 @@ Json ray_counts(const Rendering& r) {
         stats.triangles > 0 ? static_cast<double>(stats.bytes) / static_cast<double>(stats.triangles) : 0.0;
     rays["build_s"] = stats.build_s;
     return rays;
+}
+
+// Beside the counts where they are: the objects, the worst first, with a pixel each.
+Json numbers_object(const Rendering& r) {
+    Json objects = Json::array();
+    for (const ObjectFaults& o : faults_by_object(r))
+        objects.push_back({{"object", o.object}, {"samples", o.faults.sum()}, {"pixel", {o.x, o.y}}});
+    return {{"nan", r.faults.nan}, {"inf", r.faults.inf}, {"negative", r.faults.negative}, {"objects", objects}};
+}
+
+Json memory_object(const Rendering& r) {
+    Json memory = Json::object();
+    for (const StructureSize& size : structure_sizes(r)) memory[size.name] = static_cast<std::int64_t>(size.bytes);
+    return memory;
 }
 
 Json plan_object(const Plan& plan) {
@@ -110,7 +129,8 @@ std::string stats_json(const Scene& scene, const Rendering& r, const std::vector
         {"photons", photon_counts(r.photons)},
         {"npr", paint_counts(r)},
         {"rays", ray_counts(r)},
-        {"numbers", {{"nan", r.faults.nan}, {"inf", r.faults.inf}, {"negative", r.faults.negative}}},
+        {"memory", memory_object(r)},
+        {"numbers", numbers_object(r)},
         {"plan", plan_object(r.plan)},
         {"error", error_object(r)},
         {"warnings", warnings},
@@ -118,13 +138,47 @@ std::string stats_json(const Scene& scene, const Rendering& r, const std::vector
     return stats.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::string plan_text(const Plan& plan) {
+namespace {
+
+std::string megabytes(double bytes) { return fmt::format("{:.1f}", bytes / (1024 * 1024)); }
+
+HtmlTable pass_table(const Forecast& f) {
+    HtmlTable table{{"pass", "CPU s", "share %", "memory so far MB"}, {}, {}};
+    for (const PassForecast& pass : f.passes)
+        table.rows.push_back({pass.name, fmt::format("{:.2f}", pass.cpu_s), fmt::format("{:.0f}", 100 * pass.share),
+                              fmt::format("{:.0f}", pass.peak_rss_mb)});
+    return table;
+}
+
+HtmlTable structure_table(const Forecast& f) {
+    HtmlTable table{{"structure", "MB"}, {}, {}};
+    for (const StructureSize& structure : f.structures) table.rows.push_back({structure.name, megabytes(structure.bytes)});
+    return table;
+}
+
+} // namespace
+
+std::string plan_text(const Plan& plan, const Forecast& f) {
     std::string text;
     for (const std::string& what : plan.used) text += fmt::format("uses       {}\n", what);
     for (const LeftOut& left : plan.left_out) text += fmt::format("leaves out {}: {}\n", left.what, left.why);
-    return text;
+    text += fmt::format("\nforetold for {} x {} pixels and {} photons, from {} pixels' width and {} photons:\n\n", f.width,
+                        f.height, f.photons, f.small_width, f.small_photons);
+    return text + table_text(pass_table(f)) + "\n" + table_text(structure_table(f));
 }
 
-std::string plan_json(const Plan& plan) { return plan_object(plan).dump(2) + "\n"; }
+std::string plan_json(const Plan& plan, const Forecast& f) {
+    Json json = plan_object(plan);
+    Json passes = Json::array(), structures = Json::array();
+    for (const PassForecast& pass : f.passes)
+        passes.push_back({{"name", pass.name}, {"cpu_s", pass.cpu_s}, {"share", pass.share}, {"peak_rss_mb", pass.peak_rss_mb}});
+    for (const StructureSize& structure : f.structures)
+        structures.push_back({{"name", structure.name}, {"bytes", static_cast<std::int64_t>(structure.bytes)}});
+    json["forecast"] = {{"image", {{"width", f.width}, {"height", f.height}}},
+                        {"photons", f.photons},
+                        {"passes", passes},
+                        {"structures", structures}};
+    return json.dump(2) + "\n";
+}
 
 } // namespace pnr

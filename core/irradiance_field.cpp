@@ -21,7 +21,7 @@ struct Strata {
 };
 // By level, from the one that FieldSettings::effort names: where records lie close, more of them are blended at a point,
 // and each may know less.
-constexpr std::array<Strata, 6> level_strata{{{13, 41}, {11, 34}, {9, 28}, {7, 22}, {6, 19}, {5, 16}}};
+constexpr std::array<Strata, 7> level_strata{{{13, 41}, {11, 34}, {9, 28}, {7, 22}, {6, 19}, {5, 16}, {4, 13}}};
 constexpr std::size_t most_levels = 4;
 // How much more than the mean a single ray of a record may bring before more are shot.
 constexpr float spotty = 8;
@@ -467,5 +467,18 @@ Color gathered_irradiance(const IrradianceField& field, const World& world, cons
 }
 
 std::int64_t record_count(const IrradianceField& field) { return field.records; }
+
+std::int64_t field_bytes(const IrradianceField& field) {
+    const auto weight = [](const auto& values) { return values.size() * sizeof(values[0]); };
+    const auto tree_weight = [&](const KdTree& tree) {
+        return weight(tree.x) + weight(tree.y) + weight(tree.z) + weight(tree.order) + weight(tree.nodes);
+    };
+    std::size_t bytes = weight(field.lit.places) + tree_weight(field.lit.tree);
+    if (field.lit.cells.slots) bytes += (field.lit.cells.mask + 1) * sizeof(LitCells::Slot);
+    for (const Level& level : field.levels)
+        bytes += weight(level.sites) + weight(level.records) + tree_weight(level.tree) +
+                 level.sites.size() * sizeof(std::once_flag);
+    return static_cast<std::int64_t>(bytes);
+}
 
 } // namespace pnr

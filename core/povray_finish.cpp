@@ -371,6 +371,7 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
         state.caustic += parts.caustic;
         state.specular += parts.specular;
     }
+    watch(world, *hit, glm::max(sum_of(parts), Color{0}), state);
     return in_air(sum_of(parts) * (point.inside ? interior_transmittance(point.material.interior, hit->t) : Color{1}));
 }
 

@@ -43,12 +43,18 @@ struct ProgressiveSum {
     LightParts parts;         // likewise
     std::int64_t camera_rays = 0, gathers = 0;
     SampleFaults faults;
+    std::vector<FaultPlace> fault_places;
     // Of the luminance of whole batches: mean, sum of squared differences from it, sum of shrink times luminance.
     Image<float> batch_mean, batch_squares, batch_slope;
     double shrinks = 0, shrinks2 = 0; // sums over batches
     Image<float> open_batch;          // sum of luminance of the batch under way
     int open_passes = 0;
+    // How many samples a pixel takes in each pass of the batch under way: more where those so far differ much. Empty: one.
+    Image<std::uint8_t> shares;
+    Image<float> open_squares, spread; // sum of squared luminance, and of a single sample's variance, whole batches'
 };
+// The samples of a step, with what the passes so far tell about where they are wanted. The result refers to `sum`.
+SampleRange samples_of(const ProgressiveStep& step, const ProgressiveSum& sum);
 // Adds a pass's picture; a preview is replaced by the first pass that is none.
 void add_pass(ProgressiveSum& sum, const ProgressiveStep& step, RenderResult pass);
 

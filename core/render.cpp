@@ -10,6 +10,7 @@
 
 #include <atomic>
 #include <mutex>
+#include <tuple>
 
 namespace pnr {
 namespace {
@@ -31,6 +32,7 @@ struct PixelSums {
 
 struct Counts {
     SampleFaults faults;
+    std::vector<FaultPlace> places;
     std::int64_t rays = 0, gathers = 0;
 };
 
@@ -46,7 +48,7 @@ struct Job {
     const Settings& settings;
     SampleCounts samples;
     PixelRect window; // pixels with sums: the picture's window and an apron of one pixel
-    int first_sample = 0; // of each pixel's sequence
+    SampleRange range; // of each pixel's sequence, where a pass takes a part of it
     std::vector<PixelSums> sums;
 
     std::size_t index(int x, int y) const {
@@ -72,6 +74,16 @@ Color checked(Color c, SampleFaults& faults) {
     faults.inf += inf;
     faults.negative += negative;
     return c;
+}
+
+// Books what a sample added to the counts for its pixel.
+void note_faults(const SampleFaults& before, int x, int y, std::uint32_t object, Counts& counts) {
+    const SampleFaults& now = counts.faults;
+    if (now.sum() == before.sum()) return;
+    const SampleFaults more{now.nan - before.nan, now.inf - before.inf, now.negative - before.negative};
+    if (counts.places.empty() || counts.places.back().x != x || counts.places.back().y != y)
+        counts.places.push_back({x, y, object, {}});
+    counts.places.back().faults += more;
 }
 
 // Sample i of POV-Ray's method 1: the centre, then the grid's places [POV-Ray 3.7 reference, "Anti-Aliasing Options"].
@@ -124,7 +136,9 @@ void add_photon_mapped_sample(const Job& job, int x, int y, int i, std::vector<K
         return;
     }
     if (job.shading.gathered) state.pixel_width = pixel_width(job.gbuffer.view, Vec2(x + 0.5, y + 0.5));
+    const SampleFaults before = counts.faults;
     const Color radiance = checked(shade(job.shading, ray, state), counts.faults);
+    note_faults(before, x, y, state.faulty, counts);
     PixelSums::Group& group = state.painted ? sums.painted : sums.plain;
     group.radiance += radiance;
     group.alpha += 1 - (state.painted_weight.x + state.painted_weight.y + state.painted_weight.z) / 3;
@@ -147,7 +161,9 @@ void add_path(const Job& job, int x, int y, int i, PixelSums& sums, Counts& coun
     const Ray ray = sample_ray(job, x, y, i);
     ++sums.plain.count;
     if (sees_nothing(ray)) return;
+    const SampleFaults before = counts.faults;
     sums.plain.radiance += checked(path_radiance(job.shading.world, ray, settings, true, rng), counts.faults);
+    note_faults(before, x, y, job.gbuffer.seen.at(x, y).object, counts);
     sums.plain.alpha += 1;
     ++counts.rays;
 }
@@ -155,8 +171,9 @@ void add_path(const Job& job, int x, int y, int i, PixelSums& sums, Counts& coun
 void add_samples(const Job& job, int x, int y, int end, PixelSums& sums, Counts& counts) {
     std::vector<KeptIrradiance> kept;
     std::vector<Neighbour> scratch;
-    for (int n = sums.count(); n < end; ++n) {
-        const int i = job.first_sample + n;
+    const int share = job.range.share(x, y);
+    for (int n = sums.count(); n < share * end; ++n) {
+        const int i = share * job.range.first + n;
         if (job.settings.render.integrator == Integrator::path)
             add_path(job, x, y, i, sums, counts);
         else
@@ -264,9 +281,8 @@ bool for_pixels(PixelRect r, const Progress& progress, std::int64_t done_before,
                                  body(x, y, mine);
                      }
                      const std::lock_guard lock(guard);
-                     counts.faults.nan += mine.faults.nan;
-                     counts.faults.inf += mine.faults.inf;
-                     counts.faults.negative += mine.faults.negative;
+                     counts.faults += mine.faults;
+                     counts.places.insert(counts.places.end(), mine.places.begin(), mine.places.end());
                      counts.rays += mine.rays;
                      counts.gathers += mine.gathers;
                      if (progress && !progress(done += pixels, total)) stop = true;
@@ -314,12 +330,14 @@ void write_pixel(const Job& job, int x, int y, RenderResult& result) {
 // What the map is asked for: nothing where there is none, caustics alone in POV-Ray's `photons {}` scenes.
 void choose_gathers(Shading& shading, const PhotonSettings& photons) {
     shading.indirect.count = shading.caustic.count = 0;
-    if (shading.map.photons.empty()) return;
-    const GatherSettings both = default_gather(shading.world, shading.map, photons);
+    const World& world = shading.world;
+    const bool lit = world.illumination == Illumination::photon_mapped || world.caustics_apart;
+    if (shading.map.photons.empty() || !lit) return; // a map may be there for paint's sake, or unpruned
+    const GatherSettings both = default_gather(world, shading.map, photons);
     shading.caustic = both;
     shading.caustic.direct = shading.caustic.indirect = false;
     if (shading.map.caustic.count == 0) shading.caustic.count = 0;
-    if (shading.world.illumination != Illumination::photon_mapped) return;
+    if (world.illumination != Illumination::photon_mapped) return;
     shading.indirect = both;
     shading.indirect.caustic = false;
     shading.indirect.sharp = shading.settings.sharp;
@@ -339,6 +357,23 @@ RenderResult empty_result(int width, int height, bool want_parts) {
 }
 
 } // namespace
+
+void merge_faults(std::vector<FaultPlace>& places, std::vector<FaultPlace> more) {
+    if (more.empty()) return;
+    places.insert(places.end(), more.begin(), more.end());
+    const auto before = [](const FaultPlace& a, const FaultPlace& b) { return std::tie(a.y, a.x) < std::tie(b.y, b.x); };
+    std::stable_sort(places.begin(), places.end(), before);
+    std::size_t kept = 0;
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        FaultPlace& last = places[kept];
+        if (before(last, places[i])) {
+            places[++kept] = places[i];
+            continue;
+        }
+        last.faults += places[i].faults;
+    }
+    places.resize(kept + 1);
+}
 
 RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap& map,
                     const Settings& settings, PixelRect window, bool want_parts, const Progress& progress,
@@ -361,7 +396,7 @@ RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap&
             settings,
             counted,
             grow(window, samples ? 0 : 1, width, height),
-            samples ? samples->first : 0,
+            samples.value_or(SampleRange{}),
             {}};
     job.sums.resize(static_cast<std::size_t>(area(job.window)));
     const PixelRect inner = grow(window, 0, width, height);
@@ -382,6 +417,7 @@ RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap&
         for (int y = inner.y0; y < inner.y1; ++y)
             for (int x = inner.x0; x < inner.x1; ++x) write_pixel(job, x, y, result);
     result.faults = counts.faults;
+    merge_faults(result.fault_places, std::move(counts.places));
     result.camera_rays = counts.rays;
     result.gathers = counts.gathers;
     return result;

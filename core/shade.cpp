@@ -153,6 +153,7 @@ Color trace(const Shading& shading, const Segment& segment, SampleState& state) 
         has_specular(bsdf) ? specular_light(shading, here, *hit, bsdf, chain, state) : Color{0};
     if (segment.level == 0) state.specular += specular;
     const Color seen = keep * (surface + specular);
+    watch(world, *hit, seen, state);
     return passed * (bsdf.inside ? seen : through_atmosphere(world, segment.ray, hit->t, seen));
 }
 

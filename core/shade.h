@@ -45,8 +45,15 @@ struct SampleState {
     bool painted = false;    // the chain led to paint
     Color painted_weight{0}; // of the light left out for it
     std::int64_t rays = 0, gathers = 0;
+    std::uint32_t faulty = 0; // the first object whose light was no number, infinite or negative; 0: none
     Color direct{0}, indirect{0}, caustic{0}, specular{0}; // parts of the radiance
 };
+
+// Notes where a path's light first is none.
+inline void watch(const World& world, const Hit& hit, Color light, SampleState& state) {
+    if (light.x >= 0 && light.y >= 0 && light.z >= 0 && std::isfinite(light.x + light.y + light.z)) return;
+    if (state.faulty == 0) state.faulty = static_cast<std::uint32_t>(world.surfaces[hit.surface].object);
+}
 
 // The radiance against a camera ray, without what is painted (the share `mix` of painted objects seen
 // directly or through the chain of gbuffer.h). Raytraced scenes get POV-Ray's formulas, photon-mapped ones

@@ -193,7 +193,7 @@ TEST(Program, StatisticsHaveEveryKey) {
     EXPECT_EQ(s["schema"], 1);
     EXPECT_EQ(s["program"], "pnr");
     for (const char* key : {"version", "scene", "threads", "seed", "image", "passes", "photons", "npr",
-                            "rays", "numbers", "plan", "error", "warnings"})
+                            "rays", "memory", "numbers", "plan", "error", "warnings"})
         EXPECT_TRUE(s.contains(key)) << key;
     EXPECT_EQ(s["image"]["width"], 16);
     const Words names{"parse",  "build",       "photons", "kdtree", "gbuffer", "sparse",
@@ -296,6 +296,34 @@ TEST(Program, PlanSaysWhatIsLeftOut) {
         nlohmann::json::parse(run_pnr(folder, {"plan", "a.pnr", "--format", "json"}).out);
     EXPECT_TRUE(plan["used"].is_array());
     EXPECT_FALSE(plan["left_out"].empty());
+}
+
+// A ball in the middle that sends more light than a float can hold, and is seen in a mirror too.
+TEST(Program, TracesSamplesThatAreNoLightToTheirObject) {
+    const TemporaryFolder folder;
+    folder.write("a.pov", R"(#version 3.7; global_settings { assumed_gamma 1 }
+camera { location <0, 0, -4> look_at 0 right x }
+light_source { <3, 5, -4>, rgb 1 }
+box { <-9, -9, 5>, <9, 9, 6> pigment { rgb 0.5 } finish { reflection 0.5 } }
+sphere { 0, 0.3 pigment { rgb 1 } finish { ambient 1e38 * 100 diffuse 0 } }
+)");
+    const Ran ran = run_pnr(folder, {"render", "a.pov", "-W", "32", "-H", "32", "-o", "a.exr", "--aov", "numbers", "--stats", "s.json"});
+    EXPECT_EQ(ran.code, 0);
+    EXPECT_NE(ran.err.find("object 2, `sphere` at a.pov:5:1"), std::string::npos) << ran.err;
+    const nlohmann::json numbers = nlohmann::json::parse(folder.read("s.json"))["numbers"];
+    EXPECT_GT(numbers["inf"], 0);
+    ASSERT_EQ(numbers["objects"].size(), 1u);
+    EXPECT_EQ(numbers["objects"][0]["samples"], numbers["inf"]);
+    const ImageFile file = read_exr(folder / "a.exr");
+    for (const ImagePart& part : file.parts) {
+        if (part.name != "numbers") continue;
+        const auto inf = std::find(part.channel_names.begin(), part.channel_names.end(), "numbers.inf");
+        const auto channel = static_cast<std::size_t>(inf - part.channel_names.begin());
+        EXPECT_GT(part.data.at((16 * 32 + 16) * 3 + channel), 0) << "the ball";
+        EXPECT_EQ(part.data.at(channel), 0) << "the wall beside it";
+    }
+    const Image<glm::vec4> picture = read_image(folder / "a.exr");
+    for (const glm::vec4& pixel : picture.pixels) EXPECT_TRUE(std::isfinite(pixel.x + pixel.y + pixel.z + pixel.w));
 }
 
 TEST(Program, WarningsAreErrorsIfAsked) {
