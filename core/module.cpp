@@ -20,9 +20,10 @@ std::vector<fs::path> module_places(const ModuleName& name) {
     if (const char* named = std::getenv(name.environment)) return {named};
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    if (error) return {name.library};
     const fs::path root = program.parent_path().parent_path();
-    return {root / "lib" / name.library, root / "lib" / "pnr" / name.library};
+    // Last where the linker looks for libraries: a program that uses ours may lie anywhere.
+    if (error) return {name.library};
+    return {root / "lib" / name.library, root / "lib" / "pnr" / name.library, name.library};
 }
 
 } // namespace

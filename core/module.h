@@ -15,7 +15,7 @@ struct ModuleName {
 };
 
 // What the module's function returns. Its library lies where the environment says or, if that says nothing,
-// beside the program in a build folder or an installation; it is never closed. Throws FileError if it is not
+// beside the program in a build folder or an installation, or where the program's linker looks; it is never closed. Throws FileError if it is not
 // there or of another build.
 const void* open_module(const ModuleName& name);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "parser/manual.h"
 
+#include "parser/course.h"
 #include "parser/suggest.h"
 
 #include <fmt/format.h>
@@ -97,6 +98,35 @@ std::string indented(std::string_view text) {
     return result;
 }
 
+// The lessons that use a word: the first three by name, since all of them say `rgb`.
+std::string course_text(std::string_view word) {
+    constexpr std::size_t most = 3;
+    const std::vector<Lesson> lessons = lessons_with(without_hash(word));
+    std::string text = lessons.empty() ? "" : "\nin the course:\n";
+    for (std::size_t i = 0; i < std::min(most, lessons.size()); ++i)
+        text += fmt::format("    scenes/course/{}    {}\n", lessons[i].file, lessons[i].title);
+    if (lessons.size() > most) text += fmt::format("    and {} more\n", lessons.size() - most);
+    return text;
+}
+
+// The same of all words of an entry, as numbers of lessons.
+std::string course_line(const ManualEntry& entry) {
+    std::vector<std::string_view> numbers;
+    for (const std::string_view name : entry.names)
+        for (const Lesson& lesson : lessons_with(name)) {
+            std::string_view number = lesson.file.substr(0, lesson.file.find('_'));
+            number.remove_prefix(std::min(number.find_first_not_of('0'), number.size()));
+            numbers.push_back(number);
+        }
+    const auto before = [](std::string_view a, std::string_view b) {
+        return a.size() != b.size() ? a.size() < b.size() : a < b;
+    };
+    std::sort(numbers.begin(), numbers.end(), before);
+    numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    if (numbers.empty()) return {};
+    return fmt::format("\nIn the course: {} {}.\n", numbers.size() == 1 ? "lesson" : "lessons", joined(numbers, ", "));
+}
+
 } // namespace
 
 const std::vector<ManualEntry>& manual_entries() {
@@ -150,7 +180,7 @@ std::string manual_text(std::string_view word) {
         }
     }
     if (!rules.empty()) text += "\ngrammar:\n" + rules;
-    return text;
+    return text + course_text(word);
 }
 
 std::string near_manual_word(std::string_view word) {
@@ -168,7 +198,7 @@ std::string manual_markdown() {
     for (const ManualEntry& entry : manual_entries()) {
         if (entry.part != part) text += fmt::format("\n## {}{}\n", static_cast<char>(std::toupper(static_cast<unsigned char>(entry.part[0]))), entry.part.substr(1));
         part = entry.part;
-        text += fmt::format("\n### `{}`\n{}```pov\n{}```\n", joined(entry.names, "` `"), entry.text, entry.example);
+        text += fmt::format("\n### `{}`\n{}```pov\n{}```\n", joined(entry.names, "` `"), entry.text, entry.example) + course_line(entry);
     }
     return text;
 }

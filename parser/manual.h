@@ -27,7 +27,7 @@ const ManualEntry* find_manual_entry(std::string_view word);
 std::vector<std::string> grammar_rules(std::string_view word);
 std::vector<std::string> grammar_rules(); // all of them, in the file's order
 
-// What `pnr help WORD` says; empty for a word that has no entry.
+// What `pnr help WORD` says, with the lessons of the course that use it; empty for a word that has no entry.
 std::string manual_text(std::string_view word);
 // "; did you mean `x`?" for a word that has none; empty if no word is near.
 std::string near_manual_word(std::string_view word);

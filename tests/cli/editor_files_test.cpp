@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/editor_files.h"
+#include "cli/options.h"
 #include "parser/keywords.h"
 
 #include <nlohmann/json.hpp>
@@ -50,6 +51,7 @@ TEST(EditorFiles, TheExtensionsFilesAreThere) {
          {package["main"], package["contributes"]["languages"][0]["configuration"],
           package["contributes"]["grammars"][0]["path"], package["contributes"]["snippets"][0]["path"]})
         EXPECT_FALSE(file("vscode/" + path.get<std::string>()).empty()) << path;
+    EXPECT_EQ(package["version"], version());
     EXPECT_TRUE(Json::accept(file("vscode/snippets.json")));
     EXPECT_TRUE(Json::accept(file("vscode/language-configuration.json")));
 }
