@@ -6,8 +6,10 @@
 #include "cli/interrupt.h"
 #include "cli/load.h"
 #include "cli/pipeline.h"
+#include "cli/plan_graph.h"
 #include "cli/report.h"
 #include "cli/stats.h"
+#include "core/atomic_file.h"
 
 #include <fmt/format.h>
 
@@ -54,6 +56,7 @@ int run_plan(const Options& options) {
         note_stored(reuse, r);
         const Plan plan = r.plan;
         const Forecast f = forecast(std::move(r.world), r.settings, plan, passes.times());
+        if (!options.graph.empty()) write_file_atomically(options.graph, plan_graph(plan, f));
         print_answer(options.format == TextFormat::json ? plan_json(plan, f) : plan_text(plan, f));
         return exit_done;
     });

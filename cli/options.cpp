@@ -261,9 +261,10 @@ void add_others(CLI::App& parent, Options& options, Words& words, std::optional<
     add_threads(plan, options);
     add_scene_options(plan, options, words);
     add_choice(plan, "--format", format, formats, "How to print the plan");
+    plan.add_option("--graph", options.graph, "Draw it as an SVG picture too")->type_name("FILE.svg");
     plan.add_flag("--no-prune", words.no_prune, "The plan when nothing is left out");
     add_cache(plan, options);
-    plan.footer("Examples:\n  pnr plan pot.pnr\n  pnr plan pot.pnr --format json");
+    plan.footer("Examples:\n  pnr plan pot.pnr\n  pnr plan pot.pnr --format json\n  pnr plan pot.pnr --graph pot.svg");
 
     CLI::App& pick = *parent.add_subcommand("pick", "Say what is seen at a pixel, and a seed line for it");
     pick.add_option("SCENE", words.scene, "A scene file; none: the built-in scene");

@@ -76,6 +76,7 @@ struct Options {
     std::array<int, 2> at{}; // pick: pixels
     std::optional<std::array<int, 2>> to;
     std::vector<std::string> groups; // stability: these alone; empty: all
+    std::filesystem::path graph; // plan: drawn there; empty: not
     std::filesystem::path html, csv; // the report as a page, as a table; empty: not asked for
     // converge
     std::vector<double> run_budgets; // s, rising

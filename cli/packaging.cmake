@@ -3,6 +3,7 @@
 # the program says of itself: manual page and completions.
 include(GNUInstallDirs)
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON) # tests and benchmarks are not installed: no need to wait for them
 set(pnr_said ${CMAKE_CURRENT_BINARY_DIR}/said)
 add_custom_command(
     OUTPUT ${pnr_said}/pnr.1 ${pnr_said}/pnr.bash ${pnr_said}/_pnr ${pnr_said}/pnr.fish

@@ -17,7 +17,8 @@ struct Lesson {
     std::string_view file;  // "07_seeds.pnr"
     std::string_view title; // "Lesson 7: seeds and the field", as its text says
 };
-// The lessons whose scene has the word, a directive's without `#`, outside of comments and strings, in their order.
+// The lessons whose scene has the word, a directive's without `#`, outside of comments and strings, in their
+// order.
 std::vector<Lesson> lessons_with(std::string_view word);
 
 } // namespace pnr

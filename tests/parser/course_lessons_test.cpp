@@ -38,7 +38,8 @@ TEST(CourseLessons, AreTheFilesOfTheCourse) {
 }
 
 TEST(CourseLessons, EachSaysItsTitle) {
-    for (const Lesson& lesson : lessons_with("camera")) EXPECT_TRUE(lesson.title.starts_with("Lesson ")) << lesson.file;
+    for (const Lesson& lesson : lessons_with("camera"))
+        EXPECT_TRUE(lesson.title.starts_with("Lesson ")) << lesson.file;
     EXPECT_EQ(lessons_with("camera").size(), 12u); // no picture without one
 }
 
@@ -51,7 +52,8 @@ TEST(CourseLessons, WordsInCommentsAndPartsOfWordsDoNotCount) {
 }
 
 TEST(CourseLessons, TheManualNamesThem) {
-    EXPECT_NE(manual_text("seeds").find("scenes/course/07_seeds.pnr"), std::string::npos) << manual_text("seeds");
+    EXPECT_NE(manual_text("seeds").find("scenes/course/07_seeds.pnr"), std::string::npos)
+        << manual_text("seeds");
     EXPECT_NE(manual_text("#macro").find("in the course:"), std::string::npos);
     EXPECT_EQ(manual_text("julia_fractal").find("in the course:"), std::string::npos);
 }

@@ -7,7 +7,8 @@ int main() {
         camera { location <0, 1, -5> look_at <0, 1, 0> }
         light_source { <-2, 5, -4>, rgb 1 emitter { sphere 0.5 } power 900 }
         plane { y, 0 pigment { rgb 0.8 } }
-        sphere { <0, 1, 0>, 1 pigment { rgb <0.9, 0.5, 0.2> } npr { style oil } })", "ball", {});
+        sphere { <0, 1, 0>, 1 pigment { rgb <0.9, 0.5, 0.2> } npr { style oil } })",
+                                                        "ball", {});
     if (!loaded.scene) return 1;
     pnr::Settings settings = loaded.settings;
     settings.render.height = 96;
