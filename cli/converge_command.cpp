@@ -156,9 +156,10 @@ std::vector<std::string> settings_in(const std::vector<Row>& rows) {
 using Reading = std::function<std::optional<double>(const Row&)>;
 std::vector<std::pair<double, double>> points_of(const std::vector<Row>& rows, const std::string& setting,
                                                  const Reading& read, bool over_passes = false) {
+    // Within the first batch samples are stratified and passes share their photons: no law holds for these yet.
     std::vector<std::pair<double, double>> points;
     for (const Row& row : rows)
-        if (const auto value = read(row); row.setting == setting && value)
+        if (const auto value = read(row); row.setting == setting && value && (!over_passes || row.snapshot.passes >= 4))
             points.emplace_back(over_passes ? row.snapshot.passes : row.snapshot.cpu_s, *value);
     return points;
 }

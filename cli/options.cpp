@@ -417,7 +417,7 @@ struct Parsing {
 
     Parsing() {
         app.set_help_flag("-h,--help", "Print this help");
-        app.set_version_flag("--version", fmt::format("pnr {}", version()));
+        app.set_version_flag("--version", version_line());
         app.require_subcommand(1);
         add_render(app, options, words, progress);
         add_others(app, options, words, format);

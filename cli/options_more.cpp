@@ -2,10 +2,16 @@
 #include "cli/options_more.h"
 
 #include "cli/shell_files.h"
+#include "core/module.h"
 
 #include <CLI/CLI.hpp>
 
 namespace pnr {
+
+std::string version_line() {
+    const std::string lacks = left_out_parts();
+    return std::string("pnr ") + version() + (lacks.empty() ? "" : " (without " + lacks + ")");
+}
 
 void add_render_page(CLI::App& app, Options& options) {
     app.add_option("--html", options.html, "Write a page: passes, memory, maps as pictures, error, plan")->type_name("FILE");

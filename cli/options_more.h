@@ -12,6 +12,8 @@ class App;
 
 namespace pnr {
 
+// What --version says: also the parts that this build lacks.
+std::string version_line();
 // --html of `render`.
 void add_render_page(CLI::App& app, Options& options);
 void add_fmt(CLI::App& parent, Options& options);
