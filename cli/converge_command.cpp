@@ -270,7 +270,9 @@ std::string page(const std::string& scene, const std::vector<Row>& rows, const s
         parts.push_back({name + "estimated noise", points_of(rows, setting, noise_of), false});
         parts.push_back({name + "estimated bias", points_of(rows, setting, bias_of), false});
     }
-    std::string body = "<p>" + html_text(conclusion) + "</p>";
+    std::string body = "<p>";
+    for (const char c : conclusion) body += c == '\n' ? "<br>\n" : html_text(std::string(1, c));
+    body += "</p>";
     body += html_log_plot("Error against time", "CPU seconds", "relative RMSE", errors);
     body += html_log_plot("What the run itself says of its error", "CPU seconds", "relative", parts);
     body += causes_part(rows, paint);
