@@ -2,12 +2,12 @@
 #include "cli/commands.h"
 
 #include "cli/forecast.h"
+#include "cli/identity.h"
 #include "cli/interrupt.h"
 #include "cli/load.h"
 #include "cli/pipeline.h"
 #include "cli/report.h"
 #include "cli/stats.h"
-#include "core/near_limits.h"
 
 #include <fmt/format.h>
 
@@ -46,11 +46,14 @@ int run_plan(const Options& options) {
     LoadResult loaded;
     if (!passes.run("parse", [&](const Progress&) { return load_and_report(options, {}, loaded); })) return exit_scene;
     return with_scene_errors(loaded.sources, [&] {
-        const Settings settings = merge_settings(loaded.settings, options);
-        World world = passes.run("build", [&](const Progress&) { return build_world(*loaded.scene, settings); });
-        const Plan plan = make_plan(world, settings, false);
-        for (const std::string& note : near_limits(world, settings, plan.photons)) print_note(note);
-        const Forecast f = forecast(std::move(world), settings, plan, passes.times());
+        Reuse reuse;
+        reuse.scene = identity_of(loaded);
+        if (options.cache) reuse.disk = users_cache();
+        Rendering r = plan_rendering(*loaded.scene, merge_settings(loaded.settings, options), {}, reuse, passes);
+        for (const std::string& note : r.world.notes) print_note(note);
+        note_stored(reuse, r);
+        const Plan plan = r.plan;
+        const Forecast f = forecast(std::move(r.world), r.settings, plan, passes.times());
         print_answer(options.format == TextFormat::json ? plan_json(plan, f) : plan_text(plan, f));
         return exit_done;
     });
@@ -60,6 +63,7 @@ int run_plan(const Options& options) {
 
 int run_program(const std::vector<std::string>& arguments) {
     install_signal_handlers();
+    build_identity(); // before modules are loaded
     try {
         const CommandLine line = parse_command_line(arguments);
         if (!line.answer.empty()) {
@@ -76,7 +80,8 @@ int run_program(const std::vector<std::string>& arguments) {
         if (options.command == "fmt") return run_fmt(options);
         if (options.command == "init") return run_init(options);
         if (options.command == "lsp") return run_lsp(options);
-        return run_render(options);
+        if (options.command == "watch") return run_watch(options);
+        return options.shows.empty() ? run_render(options) : run_show(options);
     } catch (const UsageError& error) {
         print_error(error.what());
         std::fputs("`pnr help` and `pnr help COMMAND` explain the command line\n", stderr);

@@ -23,5 +23,7 @@ int run_converge(const Options& options);
 int run_fmt(const Options& options);
 int run_init(const Options& options);
 int run_lsp(const Options& options);
+int run_watch(const Options& options);
+int run_show(const Options& options); // render --show
 
 } // namespace pnr

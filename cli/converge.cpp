@@ -172,8 +172,8 @@ std::vector<Snapshot> run_budgets(const Scene& scene, const Settings& settings, 
         snapshots.push_back(std::move(s));
         return next < budgets.size();
     };
-    KeptPhotons kept;
-    render_scene(scene, settings, wishes, kept, 0, passes);
+    Reuse none;
+    render_scene(scene, settings, wishes, none, passes);
     return snapshots;
 }
 

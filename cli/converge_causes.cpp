@@ -53,8 +53,8 @@ void run_again(const Scene& scene, const Settings& settings, Wishes wishes,
             look(next++, r.rendered.layer.color);
         return next < snapshots.size();
     };
-    KeptPhotons kept;
-    render_scene(scene, settings, wishes, kept, 0, passes);
+    Reuse reuse;
+    render_scene(scene, settings, wishes, reuse, passes);
 }
 
 // ---- paint

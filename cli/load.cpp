@@ -66,7 +66,7 @@ void apply_quality(Settings& settings, Quality quality) {
     }
     if (quality == Quality::draft) {
         render.sharp = false;
-        render.gather_effort = 0;
+        render.gather_effort = -1;
         render.samples_min = 1;
         render.samples_max = 4;
         render.contrast = std::max(render.contrast, 0.1); // the noise of few shadow rays is no edge

@@ -81,7 +81,8 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 // What CLI11 fills and still needs a look.
 struct Words {
-    std::string scene, size, crop, frames, subset, aov, at, to, help, groups, sweep, shell, editor;
+    std::optional<std::string> tev;
+    std::string show, scene, size, crop, frames, subset, aov, at, to, help, groups, sweep, shell, editor;
     std::string budgets = "1,2,4,8,16,32";
     std::vector<std::string> declares, outputs, library, limits;
     bool no_prune = false, manual = false;
@@ -142,10 +143,8 @@ void add_progress(CLI::App& app, std::optional<ProgressMode>& progress) {
         "Progress on standard error");
 }
 
-void add_render(CLI::App& parent, Options& options, Words& words, std::optional<ProgressMode>& progress) {
-    CLI::App& app = *parent.add_subcommand("render", "Render a scene to a picture");
-    app.add_option("SCENE", words.scene,
-                   "A .pnr or .pov file; - reads standard input; none: the built-in scene");
+// What a picture is made of and with, of all commands that write one.
+void add_picture_options(CLI::App& app, Options& options, Words& words, std::optional<ProgressMode>& progress) {
     app.add_option("-o", words.outputs,
                    "Write this picture, .png or .exr; may be repeated; - is PNG on standard output")
         ->type_name("IMAGE")
@@ -158,6 +157,36 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
     app.add_option("--crop", words.crop,
                    "Render this part alone, in pixels from the top left or in fractions")
         ->type_name("X0,Y0,X1,Y1");
+    app.add_option("--exposure", options.exposure, "Brighten or darken PNG pictures by stops")
+        ->type_name("STOPS");
+    add_choice<View>(app, "--view", options.view, {{"clip", View::clip}, {"shoulder", View::shoulder}},
+                     "How PNG pictures treat light above 1");
+    add_choice<Quality>(app, "--quality", options.quality,
+                        {{"draft", Quality::draft}, {"normal", Quality::normal}, {"high", Quality::high}},
+                        "Rays a pixel and shadow rays a light: draft 1 to 4 and 4, normal the scene's own (4 "
+                        "to 16 and 32), high 16 to 64 and 64; half or twice the photons if the scene does not "
+                        "say how many");
+    add_choice<Integrator>(app, "--integrator", options.integrator,
+                           {{"photons", Integrator::photons}, {"path", Integrator::path}},
+                           "How photoreal light is found: the photon map, or the slow path-traced reference");
+    app.add_option("--maps", options.maps,
+                   "Write photons, G-buffer, sparse and informative maps and both layers there")
+        ->type_name("DIR");
+    app.add_option("--aov", words.aov, "Add these parts to EXR pictures (see below)")->type_name("NAME,...");
+    add_cache(app, options);
+    add_tev(app, words.tev);
+    add_progress(app, progress);
+}
+
+void add_render(CLI::App& parent, Options& options, Words& words, std::optional<ProgressMode>& progress) {
+    CLI::App& app = *parent.add_subcommand("render", "Render a scene to a picture");
+    app.add_option("SCENE", words.scene,
+                   "A .pnr or .pov file; - reads standard input; none: the built-in scene");
+    add_picture_options(app, options, words, progress);
+    app.add_option("--show", words.show,
+                   "In place of the picture show what cannot be seen: field, photons, sparse, informative, partial, ids,\n"
+                   "normals, error, wire; several kinds to NAME_KIND.png, or one -o for each")
+        ->type_name("KIND,...");
     app.add_option("--frames", words.frames,
                    "Render these frames; the scene's `clock` goes from 0 to 1 over them")
         ->type_name("A-B[xSTEP]");
@@ -167,15 +196,6 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
     app.add_option("--subset", words.subset, "Of the frames, render these alone; the clock stays as it is")
         ->type_name("A-B[xSTEP]");
     app.add_option("--clock", options.clock)->group(""); // POV-Ray's +K
-    app.add_option("--exposure", options.exposure, "Brighten or darken PNG pictures by stops")
-        ->type_name("STOPS");
-    add_choice<View>(app, "--view", options.view, {{"clip", View::clip}, {"shoulder", View::shoulder}},
-                     "How PNG pictures treat light above 1");
-    add_choice<Quality>(app, "--quality", options.quality,
-                        {{"draft", Quality::draft}, {"normal", Quality::normal}, {"high", Quality::high}},
-                        "Rays a pixel and shadow rays a light: draft 1 to 4 and 4, normal the scene's own (4 "
-                        "to 16 and 16), high 16 to 64 and 64; half or twice the photons if the scene does not "
-                        "say how many");
     app.add_option("--time", options.time_s,
                    "Refine the picture in passes until so many seconds have gone by, from start to written file")
         ->type_name("SECONDS");
@@ -186,19 +206,11 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
     app.add_option("--passes", options.passes, "Refine in so many passes; repeats a --time run bit for bit")
         ->type_name("N")
         ->check(CLI::Range(1, 100'000));
-    add_choice<Integrator>(app, "--integrator", options.integrator,
-                           {{"photons", Integrator::photons}, {"path", Integrator::path}},
-                           "How photoreal light is found: the photon map, or the slow path-traced reference");
-    app.add_option("--maps", options.maps,
-                   "Write photons, G-buffer, sparse and informative maps and both layers there")
-        ->type_name("DIR");
-    app.add_option("--aov", words.aov, "Add these parts to EXR pictures (see below)")->type_name("NAME,...");
     app.add_option("--stats", options.stats, "Write times and counts as JSON")->type_name("FILE");
     add_render_page(app, options);
     app.add_option("--save-photons", options.save_photons, "Keep the photon map")->type_name("FILE");
     app.add_option("--load-photons", options.load_photons, "Use a kept photon map of the same scene")
         ->type_name("FILE");
-    add_progress(app, progress);
     app.add_flag("--no-prune", words.no_prune, "Run every pass and structure, needed or not");
     auto* skip = app.add_flag("--skip-existing", options.skip_existing,
                               "Do nothing if the pictures are there already");
@@ -216,8 +228,19 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
                "  pnr render pot.pnr -D Turn=30 --stats -      with a declared number, statistics on "
                "standard output\n"
                "  pnr render pot.pnr --time 20 --error 0.03    at most 20 s, less if the light is known before\n"
+               "  pnr render pot.pnr --show field,ids          pot_field.png with numbered seeds, pot_ids.png\n"
                "  pnr render turn.pnr --frames 1-48 -o turn.png   turn0001.png to turn0048.png, `clock` from "
                "0 to 1");
+}
+
+void add_watch(CLI::App& parent, Options& options, Words& words, std::optional<ProgressMode>& progress) {
+    CLI::App& app = *parent.add_subcommand("watch", "Render a scene again whenever it is saved");
+    app.add_option("SCENE", words.scene, "A .pnr or .pov file")->required();
+    add_picture_options(app, options, words, progress);
+    app.footer("Runs just the passes that a change needs and says which: where only paint has changed, those of paint; where\n"
+               "the camera has moved, all but the photons. Included files, meshes and pictures are watched too. An error in\n"
+               "the scene is shown, and the picture stays until it is mended. Ctrl-C ends with exit code 130.\n\n"
+               "Example:\n  pnr watch pot.pnr -o pot.png");
 }
 
 void add_others(CLI::App& parent, Options& options, Words& words, std::optional<TextFormat>& format) {
@@ -239,6 +262,7 @@ void add_others(CLI::App& parent, Options& options, Words& words, std::optional<
     add_scene_options(plan, options, words);
     add_choice(plan, "--format", format, formats, "How to print the plan");
     plan.add_flag("--no-prune", words.no_prune, "The plan when nothing is left out");
+    add_cache(plan, options);
     plan.footer("Examples:\n  pnr plan pot.pnr\n  pnr plan pot.pnr --format json");
 
     CLI::App& pick = *parent.add_subcommand("pick", "Say what is seen at a pixel, and a seed line for it");
@@ -344,7 +368,8 @@ void finish_converge(Options& options, const Words& words) {
         throw UsageError(fmt::format("--sweep {}: a setting and its values are said as NAME=A,B,...", words.sweep));
 }
 
-void finish_options(Options& options, const Words& words) {
+void finish_options(Options& options, Words& words) {
+    finish_tev(options, words.tev, words.scene);
     if (!words.scene.empty()) options.scenes = {words.scene};
     for (const std::string& output : words.outputs) options.outputs.emplace_back(output);
     for (const std::string& folder : words.library) options.library.emplace_back(folder);
@@ -381,6 +406,7 @@ void finish_options(Options& options, const Words& words) {
     if (options.error && !(*options.error > 0 && *options.error < 1e3))
         throw UsageError("--error: a fraction above 0 is expected, such as 0.03");
     options.aovs = split(words.aov, ',');
+    options.shows = split(words.show, ',');
     options.groups = split(words.groups, ',');
     finish_converge(options, words);
     options.prune = !words.no_prune;
@@ -420,6 +446,7 @@ struct Parsing {
         app.set_version_flag("--version", version_line());
         app.require_subcommand(1);
         add_render(app, options, words, progress);
+        add_watch(app, options, words, progress);
         add_others(app, options, words, format);
         add_ilic(app, options, words, progress);
         add_stability(app, options, words);

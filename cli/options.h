@@ -38,7 +38,7 @@ struct IlicOptions {
 };
 
 struct Options {
-    std::string command;                        // render, check, plan, pick, ilic, stability, converge, fmt, init, lsp
+    std::string command;                        // render, watch, check, plan, pick, ilic, stability, converge, fmt, init, lsp
     std::vector<std::string> scenes;            // empty: the embedded default scene; "-": standard input
     std::vector<std::filesystem::path> outputs; // "-": PNG to standard output
     std::optional<int> width, height;
@@ -63,11 +63,14 @@ struct Options {
     std::optional<double> antialias_jitter; // +J: how far its points stray, 1 at most
     std::filesystem::path maps, stats, save_photons, load_photons; // empty: not asked for
     std::vector<std::string> aovs;
+    std::string tev;                // HOST:PORT of a viewer; empty: none
+    std::vector<std::string> shows; // kinds of pictures in place of the scene's own
     std::optional<double> time_s, error; // --time, --error (a fraction)
     std::optional<int> passes;
     ProgressMode progress = ProgressMode::automatic;
     bool prune = true, skip_existing = false, no_overwrite = false, werror = false;
     TextFormat format = TextFormat::text;
+    bool cache = true;       // results of earlier runs may be used again, and are kept
     bool check_only = false; // fmt: write nothing
     IlicOptions ilic;
     std::array<int, 2> at{}; // pick: pixels

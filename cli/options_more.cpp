@@ -2,6 +2,7 @@
 #include "cli/options_more.h"
 
 #include "cli/shell_files.h"
+#include "cli/tev_view.h"
 #include "core/module.h"
 
 #include <CLI/CLI.hpp>
@@ -15,6 +16,31 @@ std::string version_line() {
 
 void add_render_page(CLI::App& app, Options& options) {
     app.add_option("--html", options.html, "Write a page: passes, memory, maps as pictures, error, plan")->type_name("FILE");
+}
+
+void add_tev(CLI::App& app, std::optional<std::string>& place) {
+    app.add_option("--tev", place,
+                   std::string("Show the picture in the making, and every map as a layer, in the viewer tev at this place (default: ") +
+                       tev_usual_place + ")")
+        ->type_name("HOST:PORT")
+        ->expected(0, 1);
+}
+
+void finish_tev(Options& options, const std::optional<std::string>& place, std::string& scene) {
+    if (!place) return;
+    const std::size_t colon = place->rfind(':');
+    const std::string port = colon == std::string::npos ? "" : place->substr(colon + 1);
+    const bool is_place = colon != 0 && !port.empty() && port.size() <= 5 &&
+                          port.find_first_not_of("0123456789") == std::string::npos && std::stoi(port) <= 65535;
+    options.tev = is_place ? *place : tev_usual_place;
+    if (is_place || place->empty()) return;
+    if (!scene.empty()) throw UsageError(*place + " is no place of a viewer; --tev HOST:PORT is expected, such as " + tev_usual_place);
+    scene = *place; // `--tev pot.pnr`
+}
+
+void add_cache(CLI::App& app, Options& options) {
+    app.add_flag_callback("--no-cache", [&options] { options.cache = false; },
+                          "Use no results of earlier runs and keep none; the picture is the same");
 }
 
 void add_fmt(CLI::App& parent, Options& options) {

@@ -219,4 +219,21 @@ Metadata radius_metadata(const Rendering& r) {
     return metadata;
 }
 
+bool wants_light_parts(const std::vector<std::string>& aovs) {
+    return std::any_of(aovs.begin(), aovs.end(), [](const std::string& name) {
+        return name == "direct" || name == "indirect" || name == "caustic" || name == "specular" ||
+               name == "photon.density";
+    });
+}
+
+void check_aovs(const std::vector<std::string>& asked) {
+    const std::vector<std::string>& known = aov_names();
+    for (const std::string& name : asked) {
+        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+        const std::string_view near = nearest_word(name, {known.begin(), known.end()});
+        throw UsageError(fmt::format("--aov: there is no part `{}`{}", name,
+                                     near.empty() ? "" : fmt::format("; did you mean `{}`?", near)));
+    }
+}
+
 } // namespace pnr

@@ -28,4 +28,9 @@ ImagePart cut(const ImagePart& part, int width, const PixelRect& window);
 // pnr:radius (the largest) and pnr:radius.ID of each painted object, in pixels of this picture.
 Metadata radius_metadata(const Rendering& r);
 
+// Whether one of these parts asks for direct, indirect, caustic and specular light apart.
+bool wants_light_parts(const std::vector<std::string>& aovs);
+// Throws UsageError for a part that there is not.
+void check_aovs(const std::vector<std::string>& asked);
+
 } // namespace pnr

@@ -78,17 +78,22 @@ Progress Passes::progress_of(const std::string& name) {
     };
 }
 
-void Passes::finish(const std::string& name) {
+void Passes::charge(const std::string& name) {
     const double wall = clock_seconds(CLOCK_MONOTONIC), cpu = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
     for (PassTime& time : times_) {
         if (time.name != name) continue;
         time.wall_s += wall - wall_mark_;
         time.cpu_s += cpu - cpu_mark_;
         time.peak_rss_mb = peak_rss_mb();
-        view_->end(name, wall - wall_mark_);
     }
     wall_mark_ = wall;
     cpu_mark_ = cpu;
+}
+
+void Passes::finish(const std::string& name) {
+    const double began = wall_mark_;
+    charge(name);
+    view_->end(name, wall_mark_ - began);
 }
 
 } // namespace pnr

@@ -5,6 +5,7 @@
 #include "cli/options.h"
 #include "core/parallel.h"
 
+#include <atomic>
 #include <chrono>
 #include <limits>
 #include <memory>
@@ -42,10 +43,14 @@ public:
         return work(progress_of(name));
     }
 
+    // All time since the end of the pass before counts for this one, which does not run.
+    void charge(const std::string& name);
+
     const std::vector<PassTime>& times() const { return times_; } // one entry a name, in pass_names' order
     // Seconds of wall time since the process began.
     static double elapsed();
     // From now on passes are told to stop when so many seconds have gone by since the process began; infinity: never.
+    // From any thread.
     void set_deadline(double elapsed_s) { deadline_ = elapsed_s; }
     bool past_deadline() const { return elapsed() > deadline_; }
 
@@ -67,7 +72,7 @@ private:
     std::unique_ptr<ProgressView> view_;
     std::vector<PassTime> times_;
     double wall_mark_ = 0, cpu_mark_ = 0;
-    double deadline_ = std::numeric_limits<double>::infinity();
+    std::atomic<double> deadline_ = std::numeric_limits<double>::infinity();
 };
 
 } // namespace pnr

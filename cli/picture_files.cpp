@@ -100,8 +100,8 @@ void check_writable(const fs::path& file) {
 }
 
 void check_output(const fs::path& output) {
-    if (std::string(left_out_parts()).find("pictures") != std::string::npos)
-        throw FileError("this pnr was built without pictures");
+    if (is_exr(output) && std::string(left_out_parts()).find("OpenImageIO") != std::string::npos)
+        throw FileError("this pnr was built without OpenImageIO: it writes no EXR");
     if (output == "-") return;
     if (!is_png(output) && !is_exr(output))
         throw UsageError(fmt::format("-o {}: a picture's name ends in .png or .exr", output.string()));

@@ -22,16 +22,6 @@ Layer empty_layer(const PictureView& view) {
     return {Image<Color>(view.width, view.height), Image<float>(view.width, view.height)};
 }
 
-std::vector<std::string> expected_passes(const Plan& plan, const Wishes& wishes) {
-    std::vector<std::string> names{"parse", "build"};
-    if (plan.photons && wishes.load_photons.empty()) names.emplace_back("photons");
-    if (plan.kdtree) names.emplace_back("kdtree");
-    names.emplace_back("gbuffer");
-    if (plan.paint) names.insert(names.end(), {"sparse", "orient", "informative", "ilic"});
-    names.insert(names.end(), {"render", "write"});
-    return names;
-}
-
 // The first photon map: traced, or one that an earlier run has kept.
 PhotonMap first_photons(const Scene& scene, const Rendering& r, const Wishes& wishes, bool field, Passes& passes) {
     PhotonMap map;
@@ -44,12 +34,38 @@ PhotonMap first_photons(const Scene& scene, const Rendering& r, const Wishes& wi
         });
         if (field) add_field(r, r.settings, 1, map, passes);
     }
-    if (!wishes.save_photons.empty())
-        passes.run("write", [&](const Progress&) { save_photons(map, scene.hash, wishes.save_photons); });
     return map;
 }
 
+void save_if_asked(const Scene& scene, const Rendering& r, const Wishes& wishes, Passes& passes) {
+    if (wishes.save_photons.empty()) return;
+    passes.run("write", [&](const Progress&) { save_photons(r.photons, scene.hash, wishes.save_photons); });
+}
+
 } // namespace
+
+std::vector<std::string> passes_to_run(const Rendering& r, const Wishes& wishes) {
+    const Plan& plan = r.plan;
+    std::vector<std::string> names{"parse", "build"};
+    const auto add = [&](const char* name) {
+        const bool kept = std::any_of(plan.left_out.begin(), plan.left_out.end(),
+                                      [&](const LeftOut& left) { return left.what == name; });
+        if (!kept) names.emplace_back(name);
+        return !kept;
+    };
+    const bool traced = plan.photons && wishes.load_photons.empty() && add("photons");
+    const bool sources = plan.paint && add("sparse"), light = add("render");
+    if (plan.kdtree && (traced || sources || light)) names.emplace_back("kdtree");
+    add("gbuffer");
+    if (plan.paint) names.insert(names.end(), {"orient", "informative", "ilic"});
+    names.emplace_back("write");
+    const auto place = [](const std::string& name) {
+        const std::vector<std::string>& all = pass_names();
+        return std::find(all.begin(), all.end(), name) - all.begin();
+    };
+    std::sort(names.begin(), names.end(), [&](const std::string& a, const std::string& b) { return place(a) < place(b); });
+    return names;
+}
 
 PhotonMap make_photons(const Rendering& r, const Settings& settings, int batch, double shrink, bool field,
                        Passes& passes) {
@@ -75,10 +91,10 @@ void add_field(const Rendering& r, const Settings& settings, double shrink, Phot
     });
 }
 
-PaintResult paint(const Rendering& r, Passes& passes) {
+PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> sources, bool strokes) {
     PaintResult p;
     const std::uint64_t seed = r.settings.render.seed;
-    p.sparse = passes.run("sparse", [&](const Progress& progress) {
+    p.sparse = sources ? std::move(*sources) : passes.run("sparse", [&](const Progress& progress) {
         return make_sparse_map(r.world, r.gbuffer, r.photons, r.settings, progress);
     });
     passes.run("orient", [&](const Progress& progress) {
@@ -89,6 +105,7 @@ PaintResult paint(const Rendering& r, Passes& passes) {
     p.informative = passes.run("informative", [&](const Progress& progress) {
         return make_informative_map(p.sparse, r.world, r.gbuffer, seed, progress);
     });
+    if (!strokes) return p;
     p.layer = passes.run("ilic", [&](const Progress& progress) {
         return convolve(p.informative, find_seats(r.world, r.gbuffer, r.photons), r.world, r.gbuffer, seed, progress);
     });
@@ -151,49 +168,131 @@ void check_picture(const PictureSize& size, const Budgets& budgets) {
                                  size.width, size.height, budgets.pixels, pixels));
 }
 
-// Where the photons will be sent, if they are not too many.
-Focus check_photons(const Scene& scene, const World& world, const Settings& settings, const Budgets& budgets) {
-    const EmissionPlan plan = plan_emission(world, settings.photons);
-    const std::int64_t count = plan.count;
-    if (count <= budgets.photons) return plan.focus;
+} // namespace
+
+void check_photons(const Scene& scene, const World& world, const Settings& settings, const Budgets& budgets) {
+    const std::int64_t count = plan_emission(world, settings.photons).count;
+    if (count <= budgets.photons) return;
     throw SceneError({scene.file, 0, 0},
                      fmt::format("{} photons are asked for, more than the {} that are allowed; say a smaller `count` or "
                                  "a larger `spacing`, or `--limit photons={}`",
                                  count, budgets.photons, count));
 }
 
-bool same(const Focus& a, const Focus& b) { return a.center == b.center && a.radius == b.radius; }
+namespace {
 
-// Only the camera may have moved since the map was made. Where planes are endless, photons fall about the first
-// camera too: a later one must stand in their midst.
-bool still_holds(const KeptPhotons& kept, std::uint64_t world_hash, const Rendering& r) {
-    if (!kept.valid || kept.world != world_hash || kept.normals != r.plan.normals) return false;
-    const PhotonSettings &a = kept.settings.photons, &b = r.settings.photons;
-    if (kept.settings.render.seed != r.settings.render.seed || a.count != b.count || a.spacing != b.spacing) return false;
-    return glm::distance(r.world.camera.location, kept.focus.center) <= kept.focus.radius ||
-           same(kept.focus, plan_emission(r.world, b).focus);
+// Strokes and fills reach across the picture, so a crop of a painting is cut from the whole painting.
+PixelRect traced_window(const Rendering& r, const Wishes& wishes, const PictureView& view) {
+    return r.plan.paint || wishes.maps ? whole(view) : grow(r.window, 1, view.width, view.height);
 }
 
-// The map as it was before its first frame: the field's records are made where a picture needs them.
-PhotonMap take_kept(const Rendering& r, KeptPhotons& kept, Passes& passes) {
-    PhotonMap map = std::move(kept.map);
-    if (map.field) add_field(r, r.settings, 1, map, passes);
-    return map;
+void tell(const Rendering& r, const Wishes& wishes, RenderedPart part, const PixelRect& where) {
+    if (wishes.on_part) wishes.on_part(r, part, where);
+}
+
+void look(Rendering& r, const Wishes& wishes, const PictureView& view, Passes& passes) {
+    r.gbuffer = passes.run("gbuffer", [&](const Progress& progress) {
+        return make_gbuffer(r.world, view, traced_window(r, wishes, view), r.settings.render, progress);
+    });
+}
+
+void render_in_passes(const Scene& scene, Rendering& r, const Wishes& wishes, const PictureView& view, Passes& passes) {
+    r.photons = first_photons(scene, r, wishes, false, passes);
+    save_if_asked(scene, r, wishes, passes);
+    look(r, wishes, view, passes);
+    tell(r, wishes, RenderedPart::seen, whole(view));
+    refine(r, wishes, passes);
+}
+
+// Which results are taken from earlier renderings; the time that it takes counts for the pass it spares.
+struct Taken {
+    bool photons = false, seen = false, sources = false, light = false;
+};
+Taken take_all(Rendering& r, Reuse& reuse, Passes& passes) {
+    Taken taken;
+    const auto take = [&](bool& which, const char* pass, bool found) {
+        which = found;
+        passes.charge(pass);
+    };
+    take(taken.photons, "photons", take_photons(reuse, r));
+    take(taken.seen, "gbuffer", take_seen(reuse, r));
+    if (taken.photons) take(taken.sources, "sparse", take_sources(reuse, r));
+    take(taken.light, "render", take_light(reuse, r));
+    return taken;
+}
+
+template <class T>
+void copy_rows(Image<T>& to, const Image<T>& from, const PixelRect& rows) {
+    if (from.empty()) return;
+    if (to.empty()) to = Image<T>(from.width, from.height);
+    const auto begin = static_cast<std::ptrdiff_t>(rows.y0) * from.width, end = static_cast<std::ptrdiff_t>(rows.y1) * from.width;
+    std::copy(from.pixels.begin() + begin, from.pixels.begin() + end, to.pixels.begin() + begin);
+}
+
+void add_band(RenderResult& all, const RenderResult& band, const PixelRect& rows) {
+    copy_rows(all.layer.color, band.layer.color, rows);
+    copy_rows(all.layer.alpha, band.layer.alpha, rows);
+    all.parts.wanted = band.parts.wanted;
+    copy_rows(all.parts.direct, band.parts.direct, rows);
+    copy_rows(all.parts.indirect, band.parts.indirect, rows);
+    copy_rows(all.parts.caustic, band.parts.caustic, rows);
+    copy_rows(all.parts.specular, band.parts.specular, rows);
+    copy_rows(all.parts.photon_density, band.parts.photon_density, rows);
+    all.faults.nan += band.faults.nan;
+    all.faults.inf += band.faults.inf;
+    all.faults.negative += band.faults.negative;
+    all.camera_rays += band.camera_rays;
+    all.gathers += band.gathers;
+    all.stopped = band.stopped;
+}
+
+// For who looks on, band by band: a part of a picture has the bits that it has in the whole. Not where gathered light is
+// prepared for the whole picture each time.
+void find_light(Rendering& r, const Wishes& wishes, const Progress& progress) {
+    const PixelRect& window = r.window;
+    const bool bands = wishes.on_part && r.world.illumination != Illumination::radiosity;
+    const int rows = bands ? 32 : window.y1 - window.y0;
+    RenderResult& all = r.rendered;
+    all = {};
+    for (int y = window.y0; y < window.y1 && !all.stopped; y += rows) {
+        const PixelRect band{window.x0, y, window.x1, std::min(y + rows, window.y1)};
+        constexpr std::int64_t parts = 1000; // of a band
+        const auto of_all = [&](std::int64_t done, std::int64_t total) {
+            return progress((y - window.y0) * parts + (band.y1 - y) * parts * done / total, (window.y1 - window.y0) * parts);
+        };
+        RenderResult found = render(r.world, r.gbuffer, r.photons, r.settings, band, wishes.light_parts, of_all);
+        if (!bands) {
+            all = std::move(found);
+            return;
+        }
+        add_band(all, found, band);
+        tell(r, wishes, RenderedPart::light, band);
+    }
+}
+
+// Light at points is asked for by two passes alone, the one of the sources and the one of photoreal light.
+void render_at_once(const Scene& scene, Rendering& r, const Wishes& wishes, const PictureView& view, const Taken& taken,
+                    Passes& passes) {
+    if (!taken.photons) r.photons = first_photons(scene, r, wishes, false, passes);
+    save_if_asked(scene, r, wishes, passes);
+    if (!taken.light || (r.plan.paint && !taken.sources)) add_field(r, r.settings, 1, r.photons, passes);
+    if (!taken.seen) look(r, wishes, view, passes);
+    tell(r, wishes, RenderedPart::seen, whole(view));
+    if (r.plan.paint) {
+        r.paint = paint(r, passes, taken.sources ? std::optional(std::move(r.paint.sparse)) : std::nullopt);
+        tell(r, wishes, RenderedPart::paint, whole(view));
+    }
+    if (!taken.light)
+        passes.run("render", [&](const Progress& progress) { find_light(r, wishes, progress); });
+    else
+        tell(r, wishes, RenderedPart::light, r.window);
+    r.stopped = r.rendered.stopped;
 }
 
 } // namespace
 
-void keep_photons(Rendering& r, std::uint64_t world_hash, KeptPhotons& kept) {
-    if (r.stopped || !r.plan.photons) return;
-    kept.valid = true;
-    kept.world = world_hash;
-    kept.settings = r.settings;
-    kept.normals = r.plan.normals;
-    kept.map = std::move(r.photons);
-}
-
-Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, KeptPhotons& kept,
-                       std::uint64_t world_hash, Passes& passes) {
+Rendering plan_rendering(const Scene& scene, const Settings& settings, const Wishes& wishes, Reuse& reuse,
+                         Passes& passes) {
     Rendering r;
     r.settings = settings;
     const PictureSize size = picture_size(scene.camera, settings.render);
@@ -201,37 +300,27 @@ Rendering render_scene(const Scene& scene, const Settings& settings, const Wishe
     r.settings.render.height = size.height;
     check_picture(size, wishes.budgets);
     r.window = crop_window(wishes.crop, size.width, size.height);
-
     r.world = passes.run("build", [&](const Progress&) { return build_world(scene, r.settings); });
     r.plan = make_plan(r.world, r.settings, wishes.maps);
     for (std::string& note : near_limits(r.world, r.settings, r.plan.photons)) r.world.notes.push_back(std::move(note));
+    find_keys(reuse, r, wishes);
+    return r;
+}
+
+Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, Reuse& reuse,
+                       Passes& passes) {
+    Rendering r = plan_rendering(scene, settings, wishes, reuse, passes);
     if (wishes.before_passes) wishes.before_passes(r.world.notes);
-    const bool reuse = !wishes.refinement && still_holds(kept, world_hash, r);
-    if (reuse)
-        r.plan.left_out.push_back({"photons", "only the camera has moved since the frame before: its map is used again"});
-    else if (r.plan.photons && wishes.load_photons.empty())
-        kept.focus = check_photons(scene, r.world, r.settings, wishes.budgets);
-    passes.expect(expected_passes(r.plan, wishes));
+    if (r.plan.photons && wishes.load_photons.empty()) check_photons(scene, r.world, r.settings, wishes.budgets);
     stop_gently();
-    const PictureView view{r.world.camera, size.width, size.height};
-    // Strokes and fills reach across the picture, so a crop of a painting is cut from the whole painting.
-    const bool all = r.plan.paint || wishes.maps;
+    const Taken taken = take_all(r, reuse, passes);
+    passes.expect(passes_to_run(r, wishes));
+    const PictureView view{r.world.camera, r.settings.render.width, r.settings.render.height};
     try {
-        r.photons = reuse ? take_kept(r, kept, passes) : first_photons(scene, r, wishes, !wishes.refinement, passes);
-        kept.valid = false;
-        r.gbuffer = passes.run("gbuffer", [&](const Progress& progress) {
-            return make_gbuffer(r.world, view, all ? whole(view) : grow(r.window, 1, view.width, view.height),
-                                r.settings.render, progress);
-        });
-        if (wishes.refinement) {
-            refine(r, wishes, passes);
-        } else {
-            if (r.plan.paint) r.paint = paint(r, passes);
-            r.rendered = passes.run("render", [&](const Progress& progress) {
-                return render(r.world, r.gbuffer, r.photons, r.settings, r.window, wishes.light_parts, progress);
-            });
-            r.stopped = r.rendered.stopped;
-        }
+        if (wishes.refinement)
+            render_in_passes(scene, r, wishes, view, passes);
+        else
+            render_at_once(scene, r, wishes, view, taken, passes);
     } catch (const Interrupted&) {
         r.stopped = true;
     }

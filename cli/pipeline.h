@@ -5,7 +5,7 @@
 #pragma once
 
 #include "cli/passes.h"
-#include "core/emission.h"
+#include "cli/reuse.h"
 #include "core/gbuffer.h"
 #include "core/photon_map.h"
 #include "core/plan.h"
@@ -29,6 +29,9 @@ struct Refinement {
     std::optional<int> passes;
 };
 
+// What a rendering has got, piece by piece: the G-buffer; the painting's maps and layer; some of the photoreal light.
+enum class RenderedPart { seen, paint, light };
+
 // What is wanted beside the picture.
 struct Wishes {
     std::optional<CropWord> crop;
@@ -45,16 +48,8 @@ struct Wishes {
     std::optional<std::uint64_t> sample_seed;
     // Called with World::notes, once that is built.
     std::function<void(const std::vector<std::string>&)> before_passes;
-};
-
-// The photon map of the frame before, for the frames that show the same world.
-struct KeptPhotons {
-    bool valid = false;
-    std::uint64_t world = 0; // LoadResult::world_hash
-    Settings settings;       // photons and the seed count
-    bool normals = false;
-    Focus focus; // where its photons were sent
-    PhotonMap map;
+    // Called with each part that is there; light comes in bands of rows, or in passes of the whole.
+    std::function<void(const struct Rendering&, RenderedPart, const PixelRect&)> on_part;
 };
 
 // All that a rendering leaves behind. Images have the picture's full size; pixels outside `window` are 0.
@@ -81,20 +76,29 @@ struct Rendering {
 // The size of the picture: what the settings say, the missing side from the camera's shape.
 PictureSize picture_size(const Camera& camera, const RenderSettings& settings);
 
+// The passes that a rendering runs, in their order: what its plan needs but for what is kept of earlier ones.
+std::vector<std::string> passes_to_run(const Rendering& r, const Wishes& wishes);
+
+// Throws SceneError if more photons are asked for than may be.
+void check_photons(const Scene& scene, const World& world, const Settings& settings, const Budgets& budgets);
+
 // Puts the two layers together as r.picture and counts what no file can hold.
 void complete_picture(Rendering& r);
 // Pass 2 [LW10 3.2]: sparse map, orientation, informative map, ILIC.
-PaintResult paint(const Rendering& r, Passes& passes);
+// `sources`: the sparse map, if it is known. `strokes`: the last step is done too.
+PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> sources, bool strokes = true);
 // Pass 1 [LW10 3.1] and its kd-tree. `shrink`: see progressive.h.
 PhotonMap make_photons(const Rendering& r, const Settings& settings, int batch, double shrink, bool field, Passes& passes);
 // Smooth indirect light over a map that has its tree, where the scene needs it.
 void add_field(const Rendering& r, const Settings& settings, double shrink, PhotonMap& map, Passes& passes);
 
-// `kept` and `world_hash`: of an animation; the map is taken from there if it still holds. Throws SceneError, FileError,
+// What is kept of earlier renderings is taken where it is just what this one would make. Throws SceneError, FileError,
 // UsageError (a crop that leaves the picture, a picture or a photon map larger than the budgets allow).
-Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, KeptPhotons& kept,
-                       std::uint64_t world_hash, Passes& passes);
-// Moves the rendering's photon map to where the next frame finds it.
-void keep_photons(Rendering& rendering, std::uint64_t world_hash, KeptPhotons& kept);
+Rendering render_scene(const Scene& scene, const Settings& settings, const Wishes& wishes, Reuse& reuse,
+                       Passes& passes);
+
+// The world, the plan and the sizes of a rendering to come, and what it would find kept.
+Rendering plan_rendering(const Scene& scene, const Settings& settings, const Wishes& wishes, Reuse& reuse,
+                         Passes& passes);
 
 } // namespace pnr

@@ -44,7 +44,7 @@ void prepare_pass(Rendering& r, const ProgressiveStep& step, const Settings& set
         map.own = make_photons(r, settings, step.batch, step.shrink, true, passes);
         map.now = &map.own;
     }
-    if (r.plan.paint && (pass == 0 || sharper)) r.paint = paint(r, passes);
+    if (r.plan.paint && (pass == 0 || sharper)) r.paint = paint(r, passes, {});
 }
 
 bool enough(Rendering& r, const Refinement& asked, int batches_before, Passes& passes) {
@@ -77,7 +77,7 @@ void refine(Rendering& r, const Wishes& wishes, Passes& passes) {
             prepare_pass(r, step, settings, pass, map, passes);
             result = passes.run("render", [&](const Progress& progress) {
                 return render(r.world, r.gbuffer, *map.now, drawn, r.window, wishes.light_parts, progress,
-                              step.samples);
+                              samples_of(step, r.progressive));
             });
         } catch (const Interrupted&) {
             if (pass == 0) throw;
@@ -89,6 +89,10 @@ void refine(Rendering& r, const Wishes& wishes, Passes& passes) {
         r.passes_done = pass + 1;
         take_means(r);
         if (asked.time_s) passes.set_deadline(*asked.time_s - time_to_write(r));
+        if (wishes.on_part) {
+            if (pass == 0 && r.plan.paint) wishes.on_part(r, RenderedPart::paint, {0, 0, r.gbuffer.view.width, r.gbuffer.view.height});
+            wishes.on_part(r, RenderedPart::light, r.window);
+        }
         if (wishes.after_pass && !wishes.after_pass(r)) break;
         if (stop_signal() != 0 || enough(r, asked, batches, passes)) break;
         if (take_picture_request() && wishes.show) {

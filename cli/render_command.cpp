@@ -12,7 +12,9 @@
 #include "cli/render_page.h"
 #include "cli/report.h"
 #include "cli/stats.h"
+#include "cli/tev_view.h"
 #include "core/atomic_file.h"
+#include "core/parallel.h"
 
 #include <fmt/format.h>
 
@@ -41,16 +43,6 @@ Files files_of(const Options& options, const AnimationFrame& frame) {
     return files;
 }
 
-void check_aovs(const std::vector<std::string>& asked) {
-    const std::vector<std::string>& known = aov_names();
-    for (const std::string& name : asked) {
-        if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-        const std::string_view near = nearest_word(name, {known.begin(), known.end()});
-        throw UsageError(fmt::format("--aov: there is no part `{}`{}", name,
-                                     near.empty() ? "" : fmt::format("; did you mean `{}`?", near)));
-    }
-}
-
 bool exists(const fs::path& file) { return file != "-" && fs::exists(file); }
 
 // What the orientation fields could not do.
@@ -70,13 +62,16 @@ std::vector<std::string> all_warnings(const LoadResult& loaded, const Rendering&
 }
 
 void write_results(const LoadResult& loaded, const Rendering& r, const Options& options, const Files& files,
-                   Passes& passes) {
+                   const Reuse& reuse, Passes& passes) {
     passes.run("write", [&](const Progress&) {
-        for (const fs::path& picture : files.pictures)
-            write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
-        if (!files.maps.empty()) write_maps(r, files.maps);
-        if (!files.html.empty())
-            write_file_atomically(files.html, render_page(*loaded.scene, r, passes.times(), all_warnings(loaded, r)));
+        parallel_for(2, 1, [&](std::int64_t job, std::int64_t, std::int64_t) { // the cache is not waited for
+            if (job == 1) return store_on_disk(reuse, r);
+            for (const fs::path& picture : files.pictures)
+                write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
+            if (!files.maps.empty()) write_maps(r, files.maps);
+            if (!files.html.empty())
+                write_file_atomically(files.html, render_page(*loaded.scene, r, passes.times(), all_warnings(loaded, r)));
+        });
     });
     if (files.stats.empty()) return;
     const std::string text = stats_json(*loaded.scene, r, passes.times(), all_warnings(loaded, r));
@@ -84,13 +79,6 @@ void write_results(const LoadResult& loaded, const Rendering& r, const Options& 
         print_answer(text);
     else
         write_file_atomically(files.stats, text);
-}
-
-bool wants_light_parts(const Options& options) {
-    return std::any_of(options.aovs.begin(), options.aovs.end(), [](const std::string& name) {
-        return name == "direct" || name == "indirect" || name == "caustic" || name == "specular" ||
-               name == "photon.density";
-    });
 }
 
 bool wants_error(const Options& options) {
@@ -117,7 +105,7 @@ int code_of(const Rendering& r, const Options& options) {
     return exit_missed;
 }
 
-int render_frame(const Options& options, const AnimationFrame& frame, KeptPhotons& kept) {
+int render_frame(const Options& options, const AnimationFrame& frame, Reuse& reuse) {
     const Files files = files_of(options, frame);
     const auto& pictures = files.pictures;
     for (const fs::path& picture : pictures) check_output(picture);
@@ -138,24 +126,28 @@ int render_frame(const Options& options, const AnimationFrame& frame, KeptPhoton
             for (const fs::path& picture : pictures)
                 write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
         };
+        std::optional<TevView> viewer;
+        if (!options.tev.empty()) viewer.emplace(options.tev, "pnr: " + pictures.front().string());
         Wishes wishes;
         wishes.crop = options.crop;
         wishes.maps = !files.maps.empty();
-        wishes.light_parts = wants_light_parts(options);
-        wishes.save_photons = options.save_photons, wishes.load_photons = options.load_photons;
+        wishes.light_parts = wants_light_parts(options.aovs);
+        wishes.save_photons = options.save_photons;
+        wishes.load_photons = options.load_photons;
         wishes.refinement = refinement_of(options);
         wishes.show = write_pictures;
         wishes.budgets = options.budgets;
         wishes.before_passes = [](const std::vector<std::string>& notes) {
             for (const std::string& note : notes) print_note(note);
         };
-        Rendering r = render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, kept,
-                                   loaded.world_hash, passes);
+        wishes.on_part = viewer_of(viewer);
+        reuse.scene = identity_of(loaded);
+        Rendering r = render_scene(*loaded.scene, merge_settings(loaded.settings, options), wishes, reuse, passes);
         for (const std::string& note : field_notes(r)) print_note(note);
         for (const std::string& line : fault_warnings(r)) print_warning(line);
-        write_results(loaded, r, options, files, passes);
+        write_results(loaded, r, options, files, reuse, passes);
         const int code = code_of(r, options);
-        if (!wishes.refinement) keep_photons(r, loaded.world_hash, kept);
+        if (options.frames) keep(reuse, r);
         return code;
     });
 }
@@ -165,10 +157,12 @@ int render_frame(const Options& options, const AnimationFrame& frame, KeptPhoton
 int run_render(const Options& options) {
     check_aovs(options.aovs);
     const ThreadLimit limit(options.threads);
-    KeptPhotons kept;
+    Reuse reuse;
+    reuse.film = options.frames.has_value();
+    if (options.cache) reuse.disk = users_cache();
     int result = exit_done;
     for (const AnimationFrame& frame : frames_of(options)) {
-        const int code = render_frame(options, frame, kept);
+        const int code = render_frame(options, frame, reuse);
         if (code != exit_done && code != exit_missed) return code;
         if (code == exit_missed) result = code;
         if (stop_signal() != 0) return exit_signal + stop_signal(); // between two frames

@@ -40,14 +40,14 @@ Canvas canvas_of(const std::function<Vec2(Vec2)>& direction) {
 
 // The middles of the pixels in which our path ends its steps.
 std::vector<Vec2> our_path(const Canvas& canvas, Vec2 start, Vec2 heading) {
-    std::vector<Vec2> path;
-    walk_path(
-        canvas, Vec2f(start + Vec2(half)), Vec2f(heading), steps, static_cast<float>(step),
-        [](int) { return end_of_step; },
-        [&](float, float, std::uint32_t cell) {
-            path.emplace_back(cell % side + 0.5 - half, cell / side + 0.5 - half);
-        });
-    return path;
+    std::vector<Vec2> met;
+    Path path{Vec2f(start + Vec2(half)), Vec2f(heading)};
+    for (int k = 0; k < steps && path.going; ++k)
+        step_path(canvas, path, static_cast<float>(step), end_of_step, static_cast<float>(steps),
+                  [&](float, float, std::uint32_t cell) {
+                      met.emplace_back(cell % side + 0.5 - half, cell / side + 0.5 - half);
+                  });
+    return met;
 }
 
 // The largest change of the unit field with place, met on the way or a pixel beside it.

@@ -59,8 +59,8 @@ Rendering rendered(const Words& changed, const std::string& more = "", int width
     // More rays where neighbours differ as they are shown would come with more light.
     settings.render.samples_max = settings.render.samples_min;
     Passes passes(ProgressMode::off, false);
-    KeptPhotons kept;
-    return render_scene(*loaded.scene, settings, {}, kept, 0, passes);
+    Reuse none;
+    return render_scene(*loaded.scene, settings, {}, none, passes);
 }
 
 double faults_of(const Rendering& r) {

@@ -105,9 +105,9 @@ void finish_shape_hit(const Geometry& g, const Ray& ray, const ShapeHit& shape_h
         const Vec3 smooth = transform_normal(item.to_world, shape_hit.shading);
         hit.shading_normal = side * glm::normalize(smooth / largest(smooth));
     }
-    hit.uv = shape_hit.uv;
     hit.error = shape_hit_error(g, hit.leaf, ray, shape_hit);
     const Shape* shape = std::get_if<Shape>(&item.form);
+    hit.uv = shape ? uv_of(*shape, shape_hit) : shape_hit.uv;
     const Blob* blob = shape ? std::get_if<Blob>(shape) : nullptr;
     if (blob && item.first_part != no_texture)
         mix_parts(hit, item, blob_shares(*blob->data, transform_point(item.to_world.inverse, hit.position)));

@@ -4,6 +4,8 @@
 #include "core/atomic_file.h"
 #include "core/image_module.h"
 #include "core/module.h"
+#include "core/parallel.h"
+#include "core/png_file.h"
 
 #include <cmath>
 
@@ -17,7 +19,7 @@ namespace fs = std::filesystem;
 // failure the next picture tries again.
 const ImageModule& image_module() {
     static const auto& module = *static_cast<const ImageModule*>(open_module(
-        {"image", "pictures", "libpnr_image.so", "PNR_IMAGE_MODULE", image_module_symbol, image_module_version}));
+        {"image", "OpenImageIO", "libpnr_image.so", "PNR_IMAGE_MODULE", image_module_symbol, image_module_version}));
     return module;
 }
 
@@ -69,17 +71,19 @@ std::vector<unsigned char> encode_exr(const ImageFile& image) {
 std::vector<unsigned char> encode_png(const Image<Color>& linear, const Image<float>& alpha,
                                       const Metadata& metadata) {
     BytePicture picture{linear.width, linear.height, alpha.empty() ? 3 : 4, {}, metadata};
-    picture.bytes.reserve(linear.pixels.size() * static_cast<std::size_t>(picture.channels));
-    for (std::size_t i = 0; i < linear.pixels.size(); ++i) {
-        const float a = alpha.empty() ? 1.0f : clip(alpha.pixels[i]);
-        const Color c = a > 0 ? linear.pixels[i] / a : Color(0);
-        for (int k = 0; k < 3; ++k) picture.bytes.push_back(to_byte(srgb_encode(clip(c[k]))));
-        if (!alpha.empty()) picture.bytes.push_back(to_byte(a));
-    }
-    std::vector<unsigned char> bytes;
-    const std::string why = image_module().encode_png(picture, bytes);
-    if (!why.empty()) throw FileError("cannot make a PNG picture: " + why);
-    return bytes;
+    const auto channels = static_cast<std::size_t>(picture.channels);
+    picture.bytes.resize(linear.pixels.size() * channels);
+    constexpr std::int64_t grain = 4096;
+    parallel_for(static_cast<std::int64_t>(linear.pixels.size()), grain, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+            std::uint8_t* const to = picture.bytes.data() + i * channels;
+            const float a = alpha.empty() ? 1.0f : clip(alpha.pixels[i]);
+            const Color c = a > 0 ? linear.pixels[i] / a : Color(0);
+            for (int k = 0; k < 3; ++k) to[k] = to_byte(srgb_encode(clip(c[k])));
+            if (!alpha.empty()) to[3] = to_byte(a);
+        }
+    });
+    return png_bytes(picture);
 }
 
 void write_exr(const fs::path& file, const ImageFile& image) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures on disk. The image library (OpenImageIO, 260 shared libraries, 0.4 s) lives in a module of its own
-// that is opened when the first picture is read or written, so that commands that touch none do not pay for
-// it.
+// that is opened when the first picture is read or an EXR is written, so that commands that touch none do not
+// pay for it.
 #pragma once
 
 #include "core/image.h"

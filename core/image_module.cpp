@@ -5,7 +5,6 @@
 
 #include "core/palette_picture.h"
 
-#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <cerrno>
@@ -120,19 +119,6 @@ std::string encode_exr(const ImageFile& image, std::vector<unsigned char>& file)
     return "";
 }
 
-std::string encode_png(const BytePicture& picture, std::vector<unsigned char>& file) {
-    OIIO::ImageSpec spec(picture.width, picture.height, picture.channels, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    add_metadata(spec, picture.metadata);
-    OIIO::Filesystem::IOVecOutput memory(file);
-    const auto output = OIIO::ImageOutput::create("png", &memory);
-    if (!output) return OIIO::geterror();
-    if (!output->open("memory.png", spec)) return reason(*output);
-    if (!output->write_image(OIIO::TypeDesc::UINT8, picture.bytes.data())) return reason(*output);
-    return output->close() ? "" : reason(*output);
-}
-
 std::string decode(const std::string& path, DecodedPicture& picture) {
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
@@ -186,7 +172,6 @@ std::string guarded(Arguments... arguments) {
 constexpr ImageModule module_table{
     image_module_version,
     guarded<encode_exr, const ImageFile&, std::vector<unsigned char>&>,
-    guarded<encode_png, const BytePicture&, std::vector<unsigned char>&>,
     guarded<decode, const std::string&, DecodedPicture&>,
     guarded<decode_numbers, const std::string&, Image<std::uint8_t>&>,
 };

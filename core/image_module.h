@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What image_io.cpp and the image module (image_module.cpp, a library of its own) say to one another. Only
-// these three functions cross the border; files are written by image_io.cpp.
+// these functions cross the border; files are written by image_io.cpp.
 #pragma once
 
 #include "core/image_io.h"
@@ -10,13 +10,6 @@
 #include <vector>
 
 namespace pnr {
-
-// 8-bit picture: `channels` (3 or 4) interleaved bytes, sRGB transfer already applied, alpha not associated.
-struct BytePicture {
-    int width = 0, height = 0, channels = 3;
-    std::vector<std::uint8_t> bytes;
-    Metadata metadata;
-};
 
 // Any picture as it lies in the file. `is_integer`: its values are integers scaled to [0, 1], else floats.
 struct DecodedPicture {
@@ -29,11 +22,10 @@ struct DecodedPicture {
 struct ImageModule {
     int version = 0; // image_module_version, else the library is of another build
     std::string (*encode_exr)(const ImageFile& image, std::vector<unsigned char>& file) = nullptr;
-    std::string (*encode_png)(const BytePicture& picture, std::vector<unsigned char>& file) = nullptr;
     std::string (*decode)(const std::string& path, DecodedPicture& picture) = nullptr;
     std::string (*decode_numbers)(const std::string& path, Image<std::uint8_t>& numbers) = nullptr; // of a palette
 };
-inline constexpr int image_module_version = 2;
+inline constexpr int image_module_version = 3;
 inline constexpr const char* image_module_symbol = "pnr_image_module"; // extern "C" const ImageModule*()
 
 } // namespace pnr

@@ -21,7 +21,7 @@ struct Strata {
 };
 // By level, from the one that FieldSettings::effort names: where records lie close, more of them are blended at a point,
 // and each may know less.
-constexpr std::array<Strata, 6> level_strata{{{13, 41}, {11, 34}, {9, 28}, {7, 22}, {6, 19}, {5, 16}}};
+constexpr std::array<Strata, 7> level_strata{{{13, 41}, {11, 34}, {9, 28}, {7, 22}, {6, 19}, {5, 16}, {4, 13}}};
 constexpr std::size_t most_levels = 4;
 // How much more than the mean a single ray of a record may bring before more are shot.
 constexpr float spotty = 8;

@@ -23,7 +23,8 @@ struct FieldSettings {
     // In (0, 1]: the share of a first pass's widths that this one blurs over, in area. Progressive passes make it smaller, so
     // that their mean has ever less bias.
     double shrink = 1;
-    int effort = 1; // rays that a record is worth: 0 few, where pictures are averaged or may be coarse, 1, or 2 many
+    // Rays that a record is worth: -1 fewest, in drafts; 0 few, where pictures are averaged; 1; or 2 many.
+    int effort = 1;
 };
 
 // Lists the sites and computes the irradiances that gather rays end at. `map` must have its trees. A field

@@ -415,9 +415,10 @@ void find_within(const KdTree& tree, Vec3f point, float radius, std::vector<Neig
 namespace {
 
 // The k-th smallest of n > k squared distances that are all <= bound, and how many lie below it.
+constexpr std::size_t most_candidates = 1024;
 struct Kth {
     float distance2;
-    std::size_t below;
+    std::size_t below, equal;
 };
 
 // By a histogram: on a surface squared distances are spread evenly, so the k-th one's bucket holds few.
@@ -432,29 +433,39 @@ Kth find_kth(const Neighbour* candidates, std::size_t n, std::size_t k, float bo
     for (std::size_t i = 0; i < n; ++i) ++counts[static_cast<std::size_t>(bucket(candidates[i].distance2))];
     std::size_t at = buckets, before = n - counts[at];
     while (before >= k) before -= counts[--at];
-    std::array<float, 64> few;
-    std::vector<float> many;
-    float* values = few.data();
-    if (counts[at] > few.size()) {
-        many.resize(counts[at]);
-        values = many.data();
-    }
+    std::array<float, most_candidates + 1> values; // not initialised
     std::size_t m = 0;
-    for (std::size_t i = 0; i < n; ++i)
-        if (bucket(candidates[i].distance2) == static_cast<int>(at)) values[m++] = candidates[i].distance2;
+    for (std::size_t i = 0; i < n; ++i) {
+        values[m] = candidates[i].distance2;
+        m += bucket(candidates[i].distance2) == static_cast<int>(at) ? 1 : 0;
+    }
     const std::size_t rank = k - before - 1;
-    std::nth_element(values, values + rank, values + m);
-    return {values[rank], before + static_cast<std::size_t>(std::count_if(
-                                       values, values + m, [&](float v) { return v < values[rank]; }))};
+    std::nth_element(values.begin(), values.begin() + rank, values.begin() + m);
+    const float kth = values[rank];
+    std::size_t below = before, equal = 0;
+    for (std::size_t i = 0; i < m; ++i) {
+        below += values[i] < kth ? 1 : 0;
+        equal += values[i] == kth ? 1 : 0;
+    }
+    return {kth, below, equal};
 }
 
-// Keeps the k nearest in their order: all nearer than the k-th, then the first ones at just its distance.
-void keep_within(Neighbour* candidates, std::size_t n, std::size_t k, Kth kth) {
-    std::size_t ties = k - kth.below, m = 0;
+// Copies the k nearest in their order to `kept` (room for k + 1): all nearer than the k-th, then the first
+// ones at just its distance.
+void keep_within(const Neighbour* candidates, std::size_t n, std::size_t k, Kth kth, Neighbour* kept) {
+    std::size_t m = 0;
+    if (kth.below + kth.equal == k) { // no tie is left out
+        for (std::size_t i = 0; i < n; ++i) {
+            kept[m] = candidates[i];
+            m += candidates[i].distance2 <= kth.distance2 ? 1 : 0;
+        }
+        return;
+    }
+    std::size_t ties = k - kth.below;
     for (std::size_t i = 0; m < k && i < n; ++i) {
         const float d2 = candidates[i].distance2;
         const std::size_t tie = d2 == kth.distance2 && ties > 0 ? 1 : 0;
-        candidates[m] = candidates[i];
+        kept[m] = candidates[i];
         m += d2 < kth.distance2 ? 1 : tie;
         ties -= tie;
     }
@@ -484,12 +495,15 @@ bool collect(const KdTree& tree, const Query& query, float bound, std::size_t mo
 float find_nearest_near(const KdTree& tree, Vec3f point, int k, float radius, SearchHint& hint,
                         std::vector<Neighbour>& found) {
     const float radius2 = square_of(radius);
-    found.clear();
-    if (tree.count == 0 || k <= 0 || radius2 < 0) return 0;
+    if (tree.count == 0 || k <= 0 || radius2 < 0) {
+        found.clear();
+        return 0;
+    }
     const std::size_t wanted = std::min(static_cast<std::size_t>(k), tree.count);
     const Query query(point);
-    std::array<Neighbour, 1024> room; // not initialised: a vector's filling would cost as much as a search
-    constexpr std::size_t most = 1024 - leaf_points - 4;
+    std::array<Neighbour, most_candidates>
+        room; // not initialised: a vector's filling would cost as much as a search
+    constexpr std::size_t most = most_candidates - leaf_points - 4;
     const auto by_place = [](const Neighbour& a, const Neighbour& b) {
         return a.distance2 < b.distance2 || (a.distance2 == b.distance2 && a.index < b.index);
     };
@@ -501,18 +515,24 @@ float find_nearest_near(const KdTree& tree, Vec3f point, int k, float radius, Se
         const float missing = static_cast<float>(wanted) / static_cast<float>(n + 1);
         bound = std::min(radius2, bound * std::clamp(1.3f * missing, 1.5f, 16.f));
     }
+    float largest = 0;
     if (!fits) { // no hint, a poor one, or very many
         search_nearest(tree, point, wanted, radius2, by_place, found);
         std::sort(found.begin(), found.end(),
                   [](const Neighbour& a, const Neighbour& b) { return a.index < b.index; });
         n = found.size();
+        for (const Neighbour& neighbour : found) largest = std::max(largest, neighbour.distance2);
     } else if (n > wanted) {
-        keep_within(room.data(), n, wanted, find_kth(room.data(), n, wanted, bound));
+        const Kth kth = find_kth(room.data(), n, wanted, bound);
+        found.resize(wanted + 1);
+        keep_within(room.data(), n, wanted, kth, found.data());
         n = wanted;
+        found.resize(n);
+        largest = kth.distance2;
+    } else {
+        found.assign(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n));
+        for (const Neighbour& neighbour : found) largest = std::max(largest, neighbour.distance2);
     }
-    if (fits) found.assign(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(n));
-    float largest = 0;
-    for (const Neighbour& neighbour : found) largest = std::max(largest, neighbour.distance2);
     if (n == wanted) hint = {point, std::sqrt(largest)};
     name_originals(tree, found);
     return largest;

@@ -4,7 +4,7 @@
 //
 // Leaves of 8 to 16 points, found through nodes that test four children's tight boxes at once. Measured by
 // bench_photons on a million photons, k = 50 and 100, against nanoflann's queries a second in the same run:
-// uniform photons 5.8 and 8.8 times, caustic ones 2.1 and 3.9 times, built in 1.00 and 0.85 of its time, 14
+// uniform photons 6.9 and 10.7 times, caustic ones 2.1 and 4.4 times, built in 0.70 of its time, 14
 // bytes a photon beside the photon (CGAL's Kd_tree: 1.5, 1.5, 0.8, 0.8 times, built in twice the time).
 // Without a hint and sorted by distance (find_nearest) the same tree reaches 1.2, 1.5, 0.5, 0.8 times, so
 // sums over photons should use find_nearest_near.

@@ -8,7 +8,7 @@ namespace pnr {
 // version.
 struct ModuleName {
     const char* what;        // "image"
-    const char* part;        // of what it brings, as left_out_parts names it
+    const char* links;       // the heavy library behind it, as left_out_parts names it
     const char* library;     // "libpnr_image.so"
     const char* environment; // a variable that names the library's file instead
     const char* symbol;
@@ -20,7 +20,7 @@ struct ModuleName {
 // there or of another build.
 const void* open_module(const ModuleName& name);
 
-// The parts that this build was made without (cmake -DPNR_WITH_...=OFF), "pictures, fonts"; "" if it is whole.
+// The libraries that this build was made without (cmake -DPNR_WITH_...=OFF), "FreeType, OpenImageIO"; "" if it has all.
 const char* left_out_parts();
 
 } // namespace pnr

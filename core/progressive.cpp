@@ -14,8 +14,8 @@ namespace {
 
 // Passes that share a photon map, or count as one independent look at the scene where there is none.
 constexpr int batch_length = 4;
-// Share of the photons that a shrinking area keeps [Knaus and Zwicker 2011, alpha]: with 2/3 noise and bias of the
-// mean fall alike.
+// Share of the photons that a shrinking area keeps [Knaus and Zwicker 2011, alpha]: with 2/3 noise and bias
+// of the mean fall alike.
 constexpr double alpha = 2.0 / 3;
 // The estimates of a pixel are averaged with those so far around it: a pixel's own few batches tell little.
 constexpr int noise_apron = 1, bias_apron = 4;
@@ -25,6 +25,38 @@ double shrink_of(int batch) {
     double shrink = 1;
     for (int i = 1; i <= batch; ++i) shrink *= (i - 1 + alpha) / i;
     return shrink;
+}
+
+// A pixel takes more samples a pass where a single one is off by more than this, as a share of what is shown
+// of it.
+constexpr double sample_noise = 0.06;
+constexpr int most_samples = 4;
+
+// From the standard deviation of a sample and the mean. Above white nothing is seen, and near black noise is
+// judged against 2 % of white. It is the pixel's own affair, so that a crop takes the samples that the whole
+// picture does.
+std::uint8_t share_of(double deviation, double mean) {
+    const double seen = deviation / (std::min(mean, 1.0) + 0.02);
+    return static_cast<std::uint8_t>(std::clamp(std::lround(seen / sample_noise), 1L, long{most_samples}));
+}
+
+// What the passes of a batch tell of a single sample's variance.
+void add_spread(ProgressiveSum& sum) {
+    const int passes = sum.open_passes;
+    const SampleRange used = {0, 1, sum.shares.empty() ? nullptr : &sum.shares};
+    Image<std::uint8_t> next(sum.spread.width, sum.spread.height, std::uint8_t{1});
+    for (int y = 0; y < sum.spread.height; ++y)
+        for (int x = 0; x < sum.spread.width; ++x) {
+            const double mean = static_cast<double>(sum.open_batch.at(x, y)) / passes;
+            const double squares = static_cast<double>(sum.open_squares.at(x, y)) - passes * mean * mean;
+            sum.spread.at(x, y) +=
+                static_cast<float>(std::max(0.0, squares) * used.share(x, y) / (passes - 1));
+            const double variance = static_cast<double>(sum.spread.at(x, y)) / (sum.batches + 1);
+            next.at(x, y) =
+                share_of(std::sqrt(variance), static_cast<double>(luminance(sum.mean.color.at(x, y))));
+            sum.open_squares.at(x, y) = 0;
+        }
+    sum.shares = std::move(next);
 }
 
 template <class T>
@@ -39,6 +71,7 @@ void blend_in(Image<T>& mean, const Image<T>& next, float share) {
 }
 
 void close_batch(ProgressiveSum& sum, double shrink) {
+    add_spread(sum);
     const int n = ++sum.batches;
     sum.shrinks += shrink;
     sum.shrinks2 += shrink * shrink;
@@ -67,9 +100,13 @@ Image<float> box_mean(const Image<float>& image, PixelRect window, int apron) {
         }
     };
     for (int y = window.y0; y < window.y1; ++y)
-        run(window.x0, window.x1, [&](int x) { return image.at(x, y); }, [&](int x, float v) { rows.at(x, y) = v; });
+        run(
+            window.x0, window.x1, [&](int x) { return image.at(x, y); },
+            [&](int x, float v) { rows.at(x, y) = v; });
     for (int x = window.x0; x < window.x1; ++x)
-        run(window.y0, window.y1, [&](int y) { return rows.at(x, y); }, [&](int y, float v) { result.at(x, y) = v; });
+        run(
+            window.y0, window.y1, [&](int y) { return rows.at(x, y); },
+            [&](int y, float v) { result.at(x, y) = v; });
     return result;
 }
 
@@ -79,7 +116,8 @@ bool large_picture(int width, int height) { return static_cast<std::int64_t>(wid
 
 ProgressiveStep progressive_step(int pass, Illumination illumination, Integrator integrator, bool large) {
     ProgressiveStep step;
-    const bool previewed = large && illumination == Illumination::photon_mapped && integrator == Integrator::photons;
+    const bool previewed =
+        large && illumination == Illumination::photon_mapped && integrator == Integrator::photons;
     const bool photons = illumination != Illumination::raytraced && integrator == Integrator::photons;
     step.preview = previewed && pass == 0;
     const int n = previewed ? std::max(0, pass - 1) : pass;
@@ -94,12 +132,17 @@ Settings settings_of(const ProgressiveStep& step, const Settings& settings) {
     Settings own = settings;
     if (step.batch > 0)
         own.render.seed = hash_words(settings.render.seed, static_cast<std::uint64_t>(step.batch));
-    own.render.gather_effort = 0; // the batches' mean knows more
+    own.render.gather_effort = 0;          // the batches' mean knows more
     own.render.samples_min = batch_length; // the shadow rays asked for are shared by the passes of a batch
-    own.photons.gather_max = std::max(8, static_cast<int>(std::lround(settings.photons.gather_max * step.shrink)));
+    own.photons.gather_max =
+        std::max(8, static_cast<int>(std::lround(settings.photons.gather_max * step.shrink)));
     own.photons.gather_min = std::min(own.photons.gather_max, settings.photons.gather_min);
     own.photons.radius *= std::sqrt(step.shrink);
     return own;
+}
+
+SampleRange samples_of(const ProgressiveStep& step, const ProgressiveSum& sum) {
+    return {step.samples.first, step.samples.count, sum.shares.empty() ? nullptr : &sum.shares};
 }
 
 void add_pass(ProgressiveSum& sum, const ProgressiveStep& step, RenderResult pass) {
@@ -112,10 +155,13 @@ void add_pass(ProgressiveSum& sum, const ProgressiveStep& step, RenderResult pas
     const float share = 1.0f / static_cast<float>(++sum.passes);
     if (sum.open_batch.empty()) {
         sum.open_batch = Image<float>(pass.layer.color.width, pass.layer.color.height, 0.0f);
-        sum.batch_mean = sum.batch_squares = sum.batch_slope = sum.open_batch;
+        sum.batch_mean = sum.batch_squares = sum.batch_slope = sum.open_squares = sum.spread = sum.open_batch;
     }
-    for (std::size_t i = 0; i < pass.layer.color.pixels.size(); ++i)
-        sum.open_batch.pixels[i] += luminance(pass.layer.color.pixels[i]);
+    for (std::size_t i = 0; i < pass.layer.color.pixels.size(); ++i) {
+        const float l = luminance(pass.layer.color.pixels[i]);
+        sum.open_batch.pixels[i] += l;
+        sum.open_squares.pixels[i] += l * l;
+    }
     ++sum.open_passes;
     blend_in(sum.mean.color, pass.layer.color, share);
     blend_in(sum.mean.alpha, pass.layer.alpha, share);
@@ -150,13 +196,14 @@ ErrorEstimate estimate_error(const ProgressiveSum& sum, PixelRect window) {
         }
         variance.pixels[i] = static_cast<float>(squares / (n * (n - 1)));
     }
-    ErrorEstimate error{box_mean(variance, window, noise_apron), box_mean(slope, window, bias_apron), sum.batches};
+    ErrorEstimate error{box_mean(variance, window, noise_apron), box_mean(slope, window, bias_apron),
+                        sum.batches};
     for (std::size_t i = 0; i < error.noise.pixels.size(); ++i) {
         const double noise2 = static_cast<double>(error.noise.pixels[i]);
         error.noise.pixels[i] = static_cast<float>(std::sqrt(noise2));
         const double bias = static_cast<double>(error.bias.pixels[i]) * mean_shrink;
-        // What the noise of the batches alone makes of the slope. Neighbours share photons: their mean is as sure as that
-        // of few independent ones.
+        // What the noise of the batches alone makes of the slope. Neighbours share photons: their mean is as
+        // sure as that of few independent ones.
         constexpr double independent = 16;
         const double chance2 =
             spread > 1e-9 ? noise2 * n / spread * mean_shrink * mean_shrink / independent : 0;
@@ -188,7 +235,8 @@ double relative_error_90(const ProgressiveSum& sum, const ErrorEstimate& error, 
         for (int x = window.x0; x < window.x1; ++x)
             relative.push_back(std::hypot(error.noise.at(x, y), error.bias.at(x, y)) /
                                (static_cast<double>(luminance(sum.mean.color.at(x, y))) + floor));
-    const auto place = relative.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(relative.size() - 1));
+    const auto place =
+        relative.begin() + static_cast<std::ptrdiff_t>(0.9 * static_cast<double>(relative.size() - 1));
     std::nth_element(relative.begin(), place, relative.end());
     return *place;
 }

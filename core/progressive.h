@@ -49,7 +49,12 @@ struct ProgressiveSum {
     double shrinks = 0, shrinks2 = 0; // sums over batches
     Image<float> open_batch;          // sum of luminance of the batch under way
     int open_passes = 0;
+    // How many samples a pixel takes in each pass of the batch under way: more where those so far differ much. Empty: one.
+    Image<std::uint8_t> shares;
+    Image<float> open_squares, spread; // sum of squared luminance, and of a single sample's variance, whole batches'
 };
+// The samples of a step, with what the passes so far tell about where they are wanted. The result refers to `sum`.
+SampleRange samples_of(const ProgressiveStep& step, const ProgressiveSum& sum);
 // Adds a pass's picture; a preview is replaced by the first pass that is none.
 void add_pass(ProgressiveSum& sum, const ProgressiveStep& step, RenderResult pass);
 

@@ -48,7 +48,7 @@ struct Job {
     const Settings& settings;
     SampleCounts samples;
     PixelRect window; // pixels with sums: the picture's window and an apron of one pixel
-    int first_sample = 0; // of each pixel's sequence
+    SampleRange range; // of each pixel's sequence, where a pass takes a part of it
     std::vector<PixelSums> sums;
 
     std::size_t index(int x, int y) const {
@@ -171,8 +171,9 @@ void add_path(const Job& job, int x, int y, int i, PixelSums& sums, Counts& coun
 void add_samples(const Job& job, int x, int y, int end, PixelSums& sums, Counts& counts) {
     std::vector<KeptIrradiance> kept;
     std::vector<Neighbour> scratch;
-    for (int n = sums.count(); n < end; ++n) {
-        const int i = job.first_sample + n;
+    const int share = job.range.share(x, y);
+    for (int n = sums.count(); n < share * end; ++n) {
+        const int i = share * job.range.first + n;
         if (job.settings.render.integrator == Integrator::path)
             add_path(job, x, y, i, sums, counts);
         else
@@ -395,7 +396,7 @@ RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap&
             settings,
             counted,
             grow(window, samples ? 0 : 1, width, height),
-            samples ? samples->first : 0,
+            samples.value_or(SampleRange{}),
             {}};
     job.sums.resize(static_cast<std::size_t>(area(job.window)));
     const PixelRect inner = grow(window, 0, width, height);

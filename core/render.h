@@ -38,9 +38,13 @@ struct LightParts {
     Image<float> photon_density;
 };
 
-// The camera samples that one progressive pass takes of each pixel: `count` of its sequence, from `first` on.
+// The camera samples that one progressive pass takes of each pixel: `count` of its sequence, from `first` on;
+// both times the pixel's share, where shares are given.
 struct SampleRange {
     int first = 0, count = 1;
+    const Image<std::uint8_t>* shares = nullptr;
+
+    int share(int x, int y) const { return shares ? shares->at(x, y) : 1; }
 };
 
 struct RenderResult {
@@ -56,9 +60,9 @@ struct RenderResult {
 // pixels have the bits they have in the full picture. With Integrator::path every pixel gets samples_max
 // paths and the map is not looked at. Pixels wholly painted (coverage 1, seen directly, mix 1) get no rays;
 // of border pixels only the share that is not painted is rendered; behind mirrors and glass the branch that
-// leads to paint is left out. `map` may be empty (raytraced scenes). With `samples` every pixel gets just these, whatever the
-// settings say, so that passes add up (core/progressive.h). When progress says stop, the unfinished picture
-// is returned, not thrown away.
+// leads to paint is left out. `map` may be empty (raytraced scenes). With `samples` every pixel gets just
+// these, whatever the settings say, so that passes add up (core/progressive.h). When progress says stop, the
+// unfinished picture is returned, not thrown away.
 RenderResult render(const World& world, const GBuffer& gbuffer, const PhotonMap& map,
                     const Settings& settings, PixelRect window, bool want_parts,
                     const Progress& progress = {}, std::optional<SampleRange> samples = {});

@@ -66,7 +66,7 @@ struct RenderSettings {
     bool sharp = true;              // indirect light is gathered anew where the field's records lie too far apart
     int max_trace_level = 10;       // specular chain length; POV-Ray scenes (`.pov`) get 5
     double adc_bailout = 1.0 / 255; // a chain of smaller weight than this is given up
-    int shadow_samples = 16; // shadow rays to each area emitter, over a pixel's samples together at least
+    int shadow_samples = 32; // shadow rays to each area emitter, over a pixel's samples together at least
     Integrator integrator = Integrator::photons;
     View view = View::clip;
     double exposure = 0; // stops, for PNG alone

@@ -41,12 +41,14 @@ Bounds mesh_bounds(const MeshData& mesh) {
 struct Hits {
     const Ray& ray;
     HitList& list;
+    std::size_t wanted; // so many of the first will do
+
+    bool enough() const { return list.size() >= wanted; }
 
     void add(double t, Vec3 normal, Vec2 uv = Vec2(0)) {
         if (!(t > ray.t_min && t < ray.t_max)) return;
-        auto at = list.end();
-        while (at != list.begin() && (at - 1)->t > t) --at;
-        list.insert(at, ShapeHit{t, normal, uv, 0});
+        list.push_back({t, normal, uv, 0});
+        for (auto at = list.end() - 1; at != list.begin() && (at - 1)->t > t; --at) std::swap(*at, *(at - 1));
     }
 };
 
@@ -98,10 +100,14 @@ void intersect_sphere(const Sphere& s, Hits& out) {
     const auto slope = [&](double t) { return 2 * glm::dot(o + t * d, d); };
     for (double t : {roots.low, roots.high}) {
         t = polish(t, f, slope);
-        const Vec3 n = o + t * d;
-        const double latitude = std::asin(std::clamp(n.y / std::sqrt(r2), -1.0, 1.0));
-        out.add(t, n, {turn_of(n.x, n.z), 0.5 + latitude / pi});
+        out.add(t, o + t * d);
+        if (out.enough()) return;
     }
+}
+
+Vec2 sphere_uv(Vec3 from_center) {
+    const double latitude = std::asin(std::clamp(from_center.y / glm::length(from_center), -1.0, 1.0));
+    return {turn_of(from_center.x, from_center.z), 0.5 + latitude / pi};
 }
 
 // A stretch of the ray inside a convex body, and the outward normals where it enters and leaves.
@@ -131,7 +137,8 @@ struct Stretch {
     }
 };
 
-// Where POV-Ray lays the faces out: a band of the four sides, the lid over and the bottom under the second of them.
+// Where POV-Ray lays the faces out: a band of the four sides, the lid over and the bottom under the second of
+// them.
 Vec2 box_uv(Vec3 p, Vec3 outward) { // p: shares of the box's edges
     if (outward.x < 0) return {0.25 * p.z, (1 + p.y) / 3};
     if (outward.z > 0) return {0.25 + 0.25 * p.x, (1 + p.y) / 3};
@@ -154,7 +161,7 @@ void intersect_box(const Box& box, Hits& out) {
         out.add(t, normal, box_uv(glm::clamp((p - low) / (high - low), 0.0, 1.0), normal));
     };
     add(inside.enter, inside.enter_normal);
-    add(inside.leave, inside.leave_normal);
+    if (!out.enough()) add(inside.leave, inside.leave_normal);
 }
 
 void intersect_plane(const Plane& p, Hits& out) {
@@ -319,7 +326,8 @@ void intersect_torus(const Torus& torus, Hits& out) {
     for (int i = 0; i < count; ++i) {
         const Vec3 p = f.o + roots[i] * f.d;
         const double q = std::hypot(p.x, p.z) - f.major;
-        const double around = turn_of(-p.x, p.z), across = turn_of(-q, -p.y); // from the far sides, as POV-Ray has it
+        const double around = turn_of(-p.x, p.z),
+                     across = turn_of(-q, -p.y); // from the far sides, as POV-Ray has it
         out.add((nearest + roots[i] * outer) / speed, f.gradient(p), {around, across});
     }
 }
@@ -434,7 +442,7 @@ const char* shape_name(const Shape& shape) {
 
 int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits, int enough) {
     hits.clear();
-    Hits out{ray, hits};
+    Hits out{ray, hits, static_cast<std::size_t>(std::max(1, enough))};
     std::visit(Overload{
                    [&](const Sphere& s) { intersect_sphere(s, out); },
                    [&](const Box& b) { intersect_box(b, out); },
@@ -465,6 +473,10 @@ int intersect_shape(const Shape& shape, const Ray& ray, HitList& hits, int enoug
                },
                shape);
     return static_cast<int>(hits.size());
+}
+
+Vec2 uv_of(const Shape& shape, const ShapeHit& hit) {
+    return std::holds_alternative<Sphere>(shape) ? sphere_uv(hit.normal) : hit.uv;
 }
 
 bool has_uv(const Shape& shape) {

@@ -5,6 +5,10 @@
 #include "npr/masked_blur.h"
 #include "npr/paint.h"
 
+#include <boost/container/small_vector.hpp>
+
+#include <span>
+
 namespace pnr {
 
 namespace {
@@ -31,35 +35,110 @@ Walk make_walk(double length, double step, bool box) {
     return walk;
 }
 
-// Calls flush(cell, weight) for each run of samples in one cell along the path through a canvas pixel;
-// `weight` is the sum of k(s) over the run.
-template <class Flush>
-inline void integrate_path(const Canvas& canvas, const Walk& walk, int x, int y, Flush&& flush) {
-    const CanvasPoint& here = canvas.at(x, y);
-    const Vec2f start(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-    // One sample a stratum; its place goes round by the golden ratio from a start hashed from the pixel.
-    const auto first = static_cast<std::uint32_t>(mix_bits(
-        static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(static_cast<std::uint32_t>(x))));
-    std::uint32_t run_cell = here.cell;
-    float run_weight = 0;
-    for (const float side : {1.0f, -1.0f}) {
-        const std::uint32_t offset = side > 0 ? first : first * 747796405u + 2891336453u;
-        walk_path(
-            canvas, start, here.direction * side, walk.count, walk.step,
-            [&](int k) {
-                const std::uint32_t turn = offset + static_cast<std::uint32_t>(k) * 2654435769u;
-                return static_cast<float>(turn >> 8) * 0x1p-24f;
-            },
-            [&](float before, float stretch, std::uint32_t cell) {
-                if (cell != run_cell) {
-                    if (run_weight > 0) flush(run_cell, run_weight);
-                    run_cell = cell;
-                    run_weight = 0;
-                }
-                run_weight += stretch * walk.weights[static_cast<std::size_t>(before)];
-            });
+// One side's samples: cell and k(s) times the way, in the path's order.
+struct Side {
+    Path path;
+    std::uint32_t turn = 0; // of the sample in the next step
+    std::size_t count = 0;
+    std::vector<std::uint32_t> cells;
+    std::vector<float> weights;
+
+    void start(Vec2f at, Vec2f heading, std::uint32_t first) {
+        path = {at, heading};
+        turn = first;
+        count = 0;
     }
+};
+
+// The path through a canvas pixel, both ways.
+struct PixelPath {
+    int x = 0, y = 0;             // canvas pixel, without the rim
+    std::uint32_t here = no_cell; // its own cell
+    Side sides[2];
+};
+
+// Calls flush(cell, weight) for each run of samples in one cell along the path; `weight` is the sum of k(s)
+// over the run.
+template <class Flush>
+inline void for_each_run(const PixelPath& path, Flush&& flush) {
+    std::uint32_t run_cell = path.here;
+    float run_weight = 0;
+    for (const Side& side : path.sides)
+        for (std::size_t i = 0; i < side.count; ++i) {
+            if (side.cells[i] != run_cell) {
+                if (run_weight > 0) flush(run_cell, run_weight);
+                run_cell = side.cells[i];
+                run_weight = 0;
+            }
+            run_weight += side.weights[i];
+        }
     if (run_weight > 0) flush(run_cell, run_weight);
+}
+
+// A step waits for what the one before has read; paths that are walked side by side wait together. Measured,
+// 26 steps each way: see bench_ilic.
+constexpr int abreast = 2; // pixels, with two sides each
+
+void walk_abreast(const Canvas& canvas, const Walk& walk, std::span<PixelPath> paths) {
+    const auto whole = static_cast<float>(walk.count);
+    for (PixelPath& path : paths) {
+        const int x = path.x + canvas.rim, y = path.y + canvas.rim;
+        const CanvasPoint& here = canvas.at(x, y);
+        const Vec2f start(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+        // One sample a stratum; its place goes round by the golden ratio from a start hashed from the pixel.
+        const auto first = static_cast<std::uint32_t>(mix_bits(
+            static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(static_cast<std::uint32_t>(x))));
+        path.here = here.cell;
+        path.sides[0].start(start, here.direction, first);
+        path.sides[1].start(start, -here.direction, first * 747796405u + 2891336453u);
+    }
+    bool going = true;
+    for (int k = 0; k < longest_way * walk.count && going; ++k) {
+        going = false;
+        for (PixelPath& path : paths)
+            for (Side& side : path.sides) {
+                if (!side.path.going) continue;
+                const float share = static_cast<float>(side.turn >> 8) * 0x1p-24f;
+                side.turn += 2654435769u;
+                step_path(canvas, side.path, walk.step, share, whole,
+                          [&](float before, float stretch, std::uint32_t cell) {
+                              side.cells[side.count] = cell;
+                              side.weights[side.count++] =
+                                  stretch * walk.weights[static_cast<std::size_t>(before)];
+                          });
+                going = going || side.path.going;
+            }
+    }
+}
+
+// Calls body(path) for every stride-th canvas pixel of the region each way, rows in parallel.
+template <class Body>
+void for_each_path(const RegionWork& work, const Walk& walk, int stride, Body&& body) {
+    const int rows = (work.mask.height * work.scale + stride - 1) / stride,
+              columns = work.mask.width * work.scale;
+    parallel_for(rows, 4, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+        std::array<PixelPath, abreast> paths;
+        for (PixelPath& path : paths)
+            for (Side& side : path.sides) {
+                side.cells.resize(static_cast<std::size_t>(longest_way * walk.count));
+                side.weights.resize(side.cells.size());
+            }
+        std::size_t ready = 0;
+        const auto finish = [&] {
+            const std::span<PixelPath> some(paths.data(), ready);
+            walk_abreast(work.canvas, walk, some);
+            for (const PixelPath& path : some) body(path);
+            ready = 0;
+        };
+        for (int y = static_cast<int>(begin) * stride; y < static_cast<int>(end) * stride; y += stride)
+            for (int x = 0; x < columns; x += stride) {
+                if (work.mask.at(x / work.scale, y / work.scale) == 0) continue;
+                paths[ready].x = x;
+                paths[ready].y = y;
+                if (++ready == paths.size()) finish();
+            }
+        if (ready > 0) finish();
+    });
 }
 
 struct Stroke {
@@ -67,11 +146,10 @@ struct Stroke {
     float height = 0, priority = 0;
 };
 
-Stroke convolve_at(const Canvas& canvas, const Walk& walk, const std::vector<CellRecord>& records, int x,
-                   int y) {
+Stroke convolve_at(const PixelPath& path, const std::vector<CellRecord>& records) {
     glm::dvec3 base(0), deviates(0);
     double height = 0, priority = 0, weight = 0;
-    integrate_path(canvas, walk, x, y, [&](std::uint32_t cell, float run) {
+    for_each_run(path, [&](std::uint32_t cell, float run) {
         const CellRecord& record = records[cell];
         const double w = static_cast<double>(run) * record.weight;
         weight += w;
@@ -81,7 +159,7 @@ Stroke convolve_at(const Canvas& canvas, const Walk& walk, const std::vector<Cel
         priority += w * static_cast<double>(record.priority);
     });
     if (!(weight > 0)) { // length 0, or a region too thin to walk in
-        const CellRecord& record = records[canvas.at(x, y).cell];
+        const CellRecord& record = records[path.here];
         return {record.base, record.deviates, record.height, record.priority};
     }
     return {Color(base / weight), Color(deviates / weight), static_cast<float>(height / weight),
@@ -108,10 +186,9 @@ float priority_below(const CoatSample& sample, float share) {
 struct PathSample {
     double variance = 1, priority = 0;
 };
-PathSample sample_path(const Canvas& canvas, const Walk& walk, const std::vector<CellRecord>& records, int x,
-                       int y, std::vector<std::pair<std::uint32_t, double>>& met) {
-    met.clear();
-    integrate_path(canvas, walk, x, y, [&](std::uint32_t cell, float run) {
+PathSample sample_path(const PixelPath& path, const std::vector<CellRecord>& records) {
+    boost::container::small_vector<std::pair<std::uint32_t, double>, 32> met;
+    for_each_run(path, [&](std::uint32_t cell, float run) {
         const double w = static_cast<double>(run) * records[cell].weight;
         const auto known =
             std::find_if(met.begin(), met.end(), [&](const auto& m) { return m.first == cell; });
@@ -126,33 +203,23 @@ PathSample sample_path(const Canvas& canvas, const Walk& walk, const std::vector
         squares += w * w;
         priority += w * static_cast<double>(records[cell].priority);
     }
-    if (!(total > 0)) return {1, static_cast<double>(records[canvas.at(x, y).cell].priority)};
+    if (!(total > 0)) return {1, static_cast<double>(records[path.here].priority)};
     return {squares / (total * total), priority / total};
 }
 
 CoatSample sample_coat(const RegionWork& work, const Walk& walk, const std::vector<CellRecord>& records) {
     constexpr float largest_gain = 16;
-    const int rows = work.mask.height * work.scale, columns = work.mask.width * work.scale;
     const int stride = work.region.pixels * work.scale * work.scale > 4096 ? 4 : 1;
-    const int sampled_rows = (rows + stride - 1) / stride;
     struct Row {
         double variance = 0;
         std::vector<float> priorities;
     };
-    std::vector<Row> by_row(static_cast<std::size_t>(sampled_rows));
-    parallel_for(sampled_rows, 4, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-        std::vector<std::pair<std::uint32_t, double>> met;
-        for (std::int64_t r = begin; r < end; ++r) {
-            Row& row = by_row[static_cast<std::size_t>(r)];
-            const int y = static_cast<int>(r) * stride;
-            for (int x = 0; x < columns; x += stride) {
-                if (work.mask.at(x / work.scale, y / work.scale) == 0) continue;
-                const PathSample path =
-                    sample_path(work.canvas, walk, records, x + work.canvas.rim, y + work.canvas.rim, met);
-                row.variance += path.variance;
-                row.priorities.push_back(static_cast<float>(path.priority));
-            }
-        }
+    std::vector<Row> by_row(static_cast<std::size_t>(work.mask.height * work.scale));
+    for_each_path(work, walk, stride, [&](const PixelPath& path) {
+        const PathSample found = sample_path(path, records);
+        Row& row = by_row[static_cast<std::size_t>(path.y)];
+        row.variance += found.variance;
+        row.priorities.push_back(static_cast<float>(found.priority));
     });
     CoatSample sample;
     double variance = 0;
@@ -201,14 +268,24 @@ double canvas_step(const RegionWork& work) {
     return std::min(scaled(work.style.step, work.picture_height), 1.0) * work.scale;
 }
 
-void paint_coat(RegionWork& work, const PaintLayer& coat, int coat_number, std::vector<Painted>& painted) {
+SiteGrid coat_sites(const RegionWork& work, const PaintLayer& coat, int coat_number) {
+    const double cell = scaled(coat.cell, work.picture_height);
+    if (cell <= 1 || (work.style.paper_mode && coat.cell <= 1)) return {};
+    return make_sites(work, cell, coat_number);
+}
+
+SiteGrid bristle_sites(const RegionWork& work) {
+    return make_sites(work, scaled(bristle_width, work.picture_height), bristle_coat);
+}
+
+void paint_coat(RegionWork& work, const PaintLayer& coat, int coat_number, const SiteGrid& sites,
+                std::vector<Painted>& painted) {
     const int height = work.picture_height;
     Image<Color> base = work.toned;
     masked_blur(base, work.mask, scaled(coat.blur, height));
-    const double cell = scaled(coat.cell, height);
-    const std::vector<CellRecord> records = cell <= 1 || (work.style.paper_mode && coat.cell <= 1)
-                                                ? make_pixel_cells(work, coat, base, cell, coat_number)
-                                                : make_site_cells(work, coat, base, cell, coat_number);
+    const std::vector<CellRecord> records =
+        sites.sites.empty() ? make_pixel_cells(work, coat, base, scaled(coat.cell, height), coat_number)
+                            : make_site_cells(work, coat, base, sites);
     const Walk walk =
         make_walk(scaled(coat.length, height) * work.scale, canvas_step(work), work.style.box_weights);
     const CoatSample sample = sample_coat(work, walk, records);
@@ -217,9 +294,9 @@ void paint_coat(RegionWork& work, const PaintLayer& coat, int coat_number, std::
                             : sample.gain * Color(coat.noise_lightness, coat.noise_chroma, coat.noise_chroma);
     const bool covers = coat_number == 0 || (coat.bare == 0 && coat.bare_plain == 0);
     const int columns = work.mask.width * work.scale;
-    for_each_canvas_row(work, [&](int x, int y, std::int64_t) {
-        const Stroke stroke =
-            convolve_at(work.canvas, walk, records, x + work.canvas.rim, y + work.canvas.rim);
+    for_each_path(work, walk, 1, [&](const PixelPath& path) {
+        const int x = path.x, y = path.y;
+        const Stroke stroke = convolve_at(path, records);
         float alpha = coat_number == 0 ? 1.0f : static_cast<float>(coat.opacity);
         if (!covers) {
             const float detail = work.detail.at(x / work.scale, y / work.scale);
@@ -235,19 +312,16 @@ void paint_coat(RegionWork& work, const PaintLayer& coat, int coat_number, std::
     });
 }
 
-Image<float> make_bristles(RegionWork& work) {
+Image<float> make_bristles(RegionWork& work, const SiteGrid& sites) {
     PaintLayer hairs;
     hairs.edge = 0;
-    const double cell = scaled(bristle_width, work.picture_height);
-    const std::vector<CellRecord> records = make_site_cells(work, hairs, work.toned, cell, bristle_coat);
+    const std::vector<CellRecord> records = make_site_cells(work, hairs, work.toned, sites);
     const Walk walk =
         make_walk(scaled(bristle_length, work.picture_height) * work.scale, canvas_step(work), false);
     const float gain = sample_coat(work, walk, records).gain;
     Image<float> marks(work.mask.width * work.scale, work.mask.height * work.scale, 0.0f);
-    for_each_canvas_row(work, [&](int x, int y, std::int64_t) {
-        marks.at(x, y) =
-            gain *
-            convolve_at(work.canvas, walk, records, x + work.canvas.rim, y + work.canvas.rim).deviates.x;
+    for_each_path(work, walk, 1, [&](const PixelPath& path) {
+        marks.at(path.x, path.y) = gain * convolve_at(path, records).deviates.x;
     });
     return marks;
 }

@@ -19,10 +19,16 @@ std::vector<PaintLayer> coats_of(const PaintStyle& style);
 // missed.
 double canvas_step(const RegionWork& work);
 
+// Where the cells of a coat are, without any if they are pixels; and those of the bristles' marks. For all
+// coats they can be found at once.
+SiteGrid coat_sites(const RegionWork& work, const PaintLayer& coat, int coat_number);
+SiteGrid bristle_sites(const RegionWork& work);
+
 // Lays a coat over what is painted already, canvas pixels row by row.
-void paint_coat(RegionWork& work, const PaintLayer& coat, int coat_number, std::vector<Painted>& painted);
+void paint_coat(RegionWork& work, const PaintLayer& coat, int coat_number, const SiteGrid& sites,
+                std::vector<Painted>& painted);
 
 // Fine noise drawn out along the strokes, unit variance, on the canvas: what the brush's hairs leave.
-Image<float> make_bristles(RegionWork& work);
+Image<float> make_bristles(RegionWork& work, const SiteGrid& sites);
 
 } // namespace pnr

@@ -31,7 +31,7 @@ float stretch_along(const BrushScale& brush, const Seen& seen, Vec2f direction) 
 // Directions once a region; the cells change with every coat.
 Canvas make_canvas(const RegionWork& work, double step) {
     Canvas canvas;
-    canvas.scale = work.scale;
+    canvas.shift = work.scale - 1; // one or two
     canvas.rim = static_cast<int>(std::ceil(step)) + 1;
     canvas.width = work.mask.width * work.scale + 2 * canvas.rim;
     canvas.height = work.mask.height * work.scale + 2 * canvas.rim;
@@ -60,11 +60,14 @@ void add_walls(const Folds& folds, const Region& region, Canvas& canvas) {
 
 constexpr double bristle_height = 0.12; // of a mark of one standard deviation, in strokes
 
+bool has_surface(const PaintStyle& style) {
+    return !style.paper_mode && (style.bristle != 0 || style.relief != 0);
+}
+
 // Bristle marks and relief, added to the lightness.
-void finish_surface(RegionWork& work, std::vector<Painted>& painted) {
+void finish_surface(RegionWork& work, const SiteGrid& bristles, std::vector<Painted>& painted) {
     const PaintStyle& style = work.style;
-    if (style.paper_mode || (style.bristle == 0 && style.relief == 0)) return;
-    const Image<float> marks = make_bristles(work);
+    const Image<float> marks = make_bristles(work, bristles);
     Image<float> change(marks.width, marks.height, 0.0f);
     if (style.relief != 0) {
         Image<float> height(marks.width, marks.height);
@@ -108,6 +111,18 @@ Image<Color> finish_region(const RegionWork& work, const std::vector<Painted>& p
     return light;
 }
 
+// Where the cells of all coats are, then those of the bristles, if the style has any.
+std::vector<SiteGrid> find_sites(const RegionWork& work, const std::vector<PaintLayer>& coats) {
+    std::vector<SiteGrid> sites(coats.size() + (has_surface(work.style) ? 1 : 0));
+    parallel_for(static_cast<std::int64_t>(sites.size()), 1,
+                 [&](std::int64_t begin, std::int64_t, std::int64_t) {
+                     const auto i = static_cast<std::size_t>(begin);
+                     sites[i] = i < coats.size() ? coat_sites(work, coats[i], static_cast<int>(i))
+                                                 : bristle_sites(work);
+                 });
+    return sites;
+}
+
 Image<Color> paint_region(const InformativeMap& informative, const Seats& seats, const World& world,
                           const GBuffer& gbuffer, const Folds& folds, const Regions& regions,
                           std::uint32_t label, std::uint64_t seed) {
@@ -136,8 +151,10 @@ Image<Color> paint_region(const InformativeMap& informative, const Seats& seats,
     work.canvas = make_canvas(work, canvas_step(work));
     if (folds.any && !work.style.paper_mode) add_walls(folds, region, work.canvas);
     std::vector<Painted> painted(work.mask.pixels.size() * static_cast<std::size_t>(work.scale * work.scale));
-    for (std::size_t i = 0; i < coats.size(); ++i) paint_coat(work, coats[i], static_cast<int>(i), painted);
-    finish_surface(work, painted);
+    const std::vector<SiteGrid> sites = find_sites(work, coats);
+    for (std::size_t i = 0; i < coats.size(); ++i)
+        paint_coat(work, coats[i], static_cast<int>(i), sites[i], painted);
+    if (has_surface(work.style)) finish_surface(work, sites.back(), painted);
     return finish_region(work, painted);
 }
 

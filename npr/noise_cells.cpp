@@ -2,7 +2,6 @@
 #include "npr/noise_cells.h"
 
 #include "core/rng.h"
-#include "npr/cells.h"
 #include "npr/footprint.h"
 
 namespace pnr {
@@ -45,11 +44,14 @@ std::vector<CellRecord> make_pixel_cells(RegionWork& work, const PaintLayer& coa
     return records;
 }
 
-std::vector<CellRecord> make_site_cells(RegionWork& work, const PaintLayer& coat, const Image<Color>& base,
-                                        double cell, int coat_number) {
+SiteGrid make_sites(const RegionWork& work, double cell, int coat_number) {
     const CellPlan plan{work.gbuffer, work.seats, work.region, work.mask,
                         work.brush,   cell,       work.seed,   coat_number};
-    const SiteGrid grid = build_site_grid(make_cell_sites(plan), work.region.box, cell);
+    return build_site_grid(make_cell_sites(plan), work.region.box, cell);
+}
+
+std::vector<CellRecord> make_site_cells(RegionWork& work, const PaintLayer& coat, const Image<Color>& base,
+                                        const SiteGrid& grid) {
     std::vector<CellRecord> records;
     records.reserve(grid.sites.size());
     for (const CellSite& site : grid.sites) {

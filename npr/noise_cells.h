@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "core/settings.h"
 #include "npr/brush_scale.h"
+#include "npr/cells.h"
 #include "npr/maps.h"
 #include "npr/regions.h"
 #include "npr/seats.h"
@@ -61,7 +62,8 @@ inline void for_each_canvas_row(const RegionWork& work, Body&& body) {
 std::vector<CellRecord> make_pixel_cells(RegionWork& work, const PaintLayer& coat, const Image<Color>& base,
                                          double cell, int coat_number);
 // Cells about seats (cells.h), of the colour at their site.
+SiteGrid make_sites(const RegionWork& work, double cell, int coat_number);
 std::vector<CellRecord> make_site_cells(RegionWork& work, const PaintLayer& coat, const Image<Color>& base,
-                                        double cell, int coat_number);
+                                        const SiteGrid& sites);
 
 } // namespace pnr

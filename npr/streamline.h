@@ -29,14 +29,14 @@ struct Canvas {
     int rim = 0;
     std::vector<CanvasPoint> points;
     Image<std::uint8_t> walls; // folds of the region's pixels (folds.h), without the rim; empty: none
-    int scale = 1;             // canvas pixels a pixel
+    int shift = 0;             // a pixel is 2^shift canvas pixels wide
 
     // Whether a fold lies between two places less than a pixel apart.
     bool is_walled(Vec2f from, Vec2f to) const {
         if (walls.empty()) return false;
-        const auto pixel = [&](float v) { return (static_cast<int>(v) - rim + scale) / scale - 1; };
+        const auto pixel = [&](float v) { return (static_cast<int>(v) - rim) >> shift; };
         const int x = pixel(from.x), y = pixel(from.y), dx = pixel(to.x) - x, dy = pixel(to.y) - y;
-        if ((dx == 0 && dy == 0) || !walls.contains(x, y)) return false;
+        if ((dx | dy) == 0 || !walls.contains(x, y)) return false;
         return (walls.at(x, y) & wall_bit(std::clamp(dx, -1, 1), std::clamp(dy, -1, 1))) != 0;
     }
 
@@ -59,34 +59,37 @@ inline Vec2f follow(const Canvas& canvas, Vec2f at, Vec2f heading) {
     return along < 0 ? -d : heading;
 }
 
-inline constexpr int longest_way = 2; // steps of a path by those it has where a pixel is one of the brush
+// Steps of a path by those it has where a pixel is one of the brush, at most.
+inline constexpr int longest_way = 2;
 
-// Walks from `start` along `heading` by the midpoint rule until the way on the surface is `count` steps of
-// the brush long, and calls sample(before, stretch, cell) with the cell at a place inside each step,
-// `within(k)` in [0, 1) of the k-th's way along: one stratified sample a step. `before`: the way up to that
-// place, in steps. Stops where the path leaves the region or comes to a fold.
-template <class Within, class Sample>
-inline void walk_path(const Canvas& canvas, Vec2f start, Vec2f heading, int count, float step,
-                      Within&& within, Sample&& sample) {
-    Vec2f p = start;
-    float way = 0;
-    const auto whole = static_cast<float>(count);
-    for (int k = 0; k < longest_way * count; ++k) {
-        const Vec2f first = follow(canvas, p, heading);
-        const Vec2f middle = follow(canvas, p + first * (0.5f * step), first);
-        const Vec2f next = p + middle * step;
-        if (canvas.is_walled(p, next)) return;
-        const float share = within(k);
-        const CanvasPoint& met = canvas.at(p + middle * (share * step));
-        if (met.cell == no_cell) return;
-        const float before = way + share * met.stretch;
-        if (before >= whole) return;
-        sample(before, met.stretch, met.cell);
-        way += met.stretch;
-        p = next;
-        heading = middle;
-        if (canvas.at(p).cell == no_cell) return;
+// A path under way.
+struct Path {
+    Vec2f p{0}, heading{0};
+    float way = 0; // so far on the surface, in steps of the brush
+    bool going = true;
+};
+
+// One step by the midpoint rule: calls sample(before, stretch, cell) with the cell at a place inside it,
+// `share` in [0, 1) of its way along. `before`: the way up to that place. The path stops where it leaves the
+// region, comes to a fold or has come `whole` steps of the brush.
+template <class Sample>
+inline void step_path(const Canvas& canvas, Path& path, float step, float share, float whole,
+                      Sample&& sample) {
+    const Vec2f p = path.p;
+    const Vec2f first = follow(canvas, p, path.heading);
+    const Vec2f middle = follow(canvas, p + first * (0.5f * step), first);
+    const Vec2f next = p + middle * step;
+    const CanvasPoint& met = canvas.at(p + middle * (share * step));
+    const float before = path.way + share * met.stretch;
+    if (canvas.is_walled(p, next) || met.cell == no_cell || before >= whole) {
+        path.going = false;
+        return;
     }
+    sample(before, met.stretch, met.cell);
+    path.way += met.stretch;
+    path.p = next;
+    path.heading = middle;
+    path.going = canvas.at(next).cell != no_cell;
 }
 
 } // namespace pnr

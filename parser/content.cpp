@@ -150,10 +150,13 @@ std::shared_ptr<const DeclaredBlock> make_declared(Parser& p, const Token& at, D
     check_weight(p, at, weight);
     const auto bytes = static_cast<std::int64_t>(weight.bytes);
     *p.in.bytes += bytes;
-    return {new DeclaredBlock(std::move(block)), [ledger = p.in.bytes, bytes](const DeclaredBlock* gone) {
-                *ledger -= bytes;
-                delete gone;
-            }};
+    std::shared_ptr<const DeclaredBlock> declared(
+        new DeclaredBlock(std::move(block)), [ledger = p.in.bytes, bytes](const DeclaredBlock* gone) {
+            *ledger -= bytes;
+            delete gone;
+        });
+    remember_told(p.in, declared.get());
+    return declared;
 }
 
 } // namespace pnr

@@ -215,7 +215,7 @@ void break_directive(Parser& p, const Token& directive) {
 
 std::string message_text(Parser& p) {
     const HoldScope hold(p);
-    const Untold untold(p.in);
+    const Telling nobody(p.in, Listener::none);
     return parse_string(p);
 }
 
@@ -236,6 +236,7 @@ void version_directive(Parser& p) {
         if (peek(p).kind == TokenKind::word && !at_expression(p)) next(p);
     }
     p.in.version = parse_condition(p);
+    for (std::uint64_t& told : p.in.told) add_told(told, std::bit_cast<std::uint64_t>(p.in.version));
     p.in.version_said = true;
     accept_semicolon(p);
 }

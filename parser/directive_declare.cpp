@@ -90,6 +90,7 @@ void declare_directive(Parser& p, const Token& directive, bool local) {
     const std::size_t frame = p.in.frames.size();
     try {
         const HoldScope hold(p);
+        const Telling nobody(p.in, Listener::none); // numbers are told where they are used, blocks as they are read
         Target target = take_target(p, directive);
         expect(p, '=', "after the name to declare");
         p.in.hold.start = p.in.frames.back().position;

@@ -167,7 +167,7 @@ void fclose_directive(Parser& p, const Token& directive) {
 }
 
 void write_directive(Parser& p, const Token& directive) {
-    const Untold untold(p.in);
+    const Telling nobody(p.in, Listener::none);
     expect_raw(p, '(', directive);
     const Token name = take_handle_name(p, directive);
     const OpenFile& file = open_file(p, name);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace pnr {
 
@@ -402,6 +403,28 @@ void assign(Parser& p, Symbol symbol, Value value, bool local) {
 void undefine(Expander& in, Symbol symbol) {
     if (symbol < in.symbols.size() && !in.symbols[symbol].bindings.empty())
         in.symbols[symbol].bindings.pop_back();
+}
+
+void tell_text(Expander& in, std::string_view text) {
+    if (in.listener == Listener::none) return;
+    tell(in, std::uint64_t{text.size()});
+    while (!text.empty()) {
+        std::uint64_t word = 0;
+        const std::size_t bytes = std::min(text.size(), sizeof word);
+        std::memcpy(&word, text.data(), bytes);
+        tell(in, word);
+        text.remove_prefix(bytes);
+    }
+}
+
+void remember_told(Expander& in, const void* thing) { in.known_as[thing] = in.told; }
+
+// Cameras and paint may use what the world was told, but the world must not change where they do.
+void tell_thing(Expander& in, const void* thing) {
+    const auto known = in.known_as.find(thing);
+    if (known == in.known_as.end() || in.listener == Listener::none) return;
+    tell(in, known->second[0]);
+    if (in.listener != Listener::world) tell(in, known->second[static_cast<std::size_t>(in.listener)]);
 }
 
 const DeclaredBlock* first_block(const ArrayValue& array) {

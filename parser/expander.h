@@ -12,11 +12,13 @@
 #include "parser/load_scene.h"
 #include "parser/value.h"
 
+#include <array>
 #include <bit>
 #include <cstdint>
 #include <deque>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -94,6 +96,11 @@ struct Counters {
     int nesting = 0, macro_depth = 0, include_depth = 0;
 };
 
+// Whom what is read concerns. Paint changes no light (what of it does is in World::objects); texts of #debug and the like
+// concern nobody.
+enum class Listener : std::uint8_t { world = 0, camera = 1, paint = 2, none = 3 };
+using Told = std::array<std::uint64_t, 3>; // a hash for each listener
+
 struct Expander {
     Sources& sources;
     std::vector<Diagnostic>& diagnostics;
@@ -135,29 +142,41 @@ struct Expander {
     double version = 3.7;
     bool version_said = false;
     std::string debug_output;
-    std::uint64_t told = 1469598103934665603ull; // hash of what the blocks were told (LoadResult::world_hash)
-    bool telling = true;                         // not in a camera's block, nor in #debug and the like
+    // Hashes of what the blocks were told (LoadResult::world_hash, camera_hash), and whose block is being read.
+    Told told{1469598103934665603ull, 1469598103934665603ull, 1469598103934665603ull};
+    Listener listener = Listener::world;
+    // The hashes when a declared block, function or spline was read: what its name stands for.
+    std::unordered_map<const void*, Told> known_as;
+    std::vector<std::string> assets; // files that the blocks name: pictures, meshes, fonts ...
 
     Expander(Sources& all_sources, std::vector<Diagnostic>& all_diagnostics, const LoadOptions& load_options)
         : sources(all_sources), diagnostics(all_diagnostics), options(load_options) {}
 };
 
 // One more thing that a block was told: a word, a sign, or a value.
+inline void add_told(std::uint64_t& told, std::uint64_t thing) {
+    told = (told ^ thing) * 0x9e3779b97f4a7c15ull;
+    told ^= told >> 29;
+}
 inline void tell(Expander& in, std::uint64_t thing) {
-    if (!in.telling) return;
-    in.told = (in.told ^ thing) * 0x9e3779b97f4a7c15ull;
-    in.told ^= in.told >> 29;
+    if (in.listener != Listener::none) add_told(in.told[static_cast<std::size_t>(in.listener)], thing);
 }
 inline void tell(Expander& in, double value) { tell(in, std::bit_cast<std::uint64_t>(value + 0.0)); } // -0 is 0
+void tell_text(Expander& in, std::string_view text);
 
-// What is read while this lives makes no difference to the world.
-struct Untold {
+// A thing that names may stand for has been read; and one is used. Names alone would not do: another run may have
+// given them to other things.
+void remember_told(Expander& in, const void* thing);
+void tell_thing(Expander& in, const void* thing);
+
+// Whom all that is read while this lives is told to.
+struct Telling {
     Expander& in;
-    bool before;
-    explicit Untold(Expander& expander) : in(expander), before(expander.telling) { in.telling = false; }
-    ~Untold() { in.telling = before; }
-    Untold(const Untold&) = delete;
-    Untold& operator=(const Untold&) = delete;
+    Listener before;
+    Telling(Expander& expander, Listener listener) : in(expander), before(expander.listener) { in.listener = listener; }
+    ~Telling() { in.listener = before; }
+    Telling(const Telling&) = delete;
+    Telling& operator=(const Telling&) = delete;
 };
 
 // Thrown when the run cannot go on: a budget is used up, or there are too many errors. Recorded before.

@@ -369,7 +369,7 @@ std::string string_value(Parser& p) {
 
 std::string parse_string(Parser& p) {
     std::string text = string_value(p);
-    if (p.in.telling) tell(p.in, std::uint64_t{std::hash<std::string>{}(text)});
+    tell_text(p.in, text);
     return text;
 }
 
@@ -451,8 +451,10 @@ Value value_of(Parser& p, Angles angles) {
         if (const Value* value = shown_value(p, token)) {
             if (!is_numeric(*value) && !is_call(p, *value)) return take_variable(p);
         } else if (is(token, "function"_kw)) {
+            const Telling world(p.in, Listener::world);
             return Value{parse_function(p)};
         } else if (is(token, "spline"_kw)) {
+            const Telling world(p.in, Listener::world);
             next(p);
             return Value{parse_spline(p)};
         } else if (is(token, "array"_kw)) {
@@ -460,6 +462,8 @@ Value value_of(Parser& p, Angles angles) {
         } else if (at_string(p)) {
             return Value{parse_string(p)};
         } else if (!at_expression(p)) {
+            // Whoever asks for it: others may use it later.
+            const Telling world(p.in, Listener::world);
             if (auto block_value = parse_declared_block(p))
                 return Value{make_declared(p, token, std::move(*block_value))};
         }

@@ -159,6 +159,7 @@ double known_terms(std::span<const Instruction> bounds) {
 
 void compile_call(Compiler& c, const std::shared_ptr<const Function>& callee, const Token& name) {
     next(c.p);
+    tell_thing(c.p.in, callee.get());
     if (!callee->unsupported.empty()) c.function.unsupported = callee->unsupported;
     open_arguments(c.p, name);
     int count = 0;
@@ -243,6 +244,7 @@ void compile_primary(Compiler& c) {
         return;
     }
     const double value = scalar_of(c.p, parse_primary(c.p), token);
+    tell(c.p.in, value);
     emit(c, Instruction{.value = value}, 1);
 }
 
@@ -357,6 +359,7 @@ std::shared_ptr<const Function> parse_function_body(Parser& p, const Token& word
         throw;
     }
     if (function->cost > most_cost) fail(p, word, "this function calls others too often to be evaluated");
+    remember_told(p.in, function.get());
     return function;
 }
 

@@ -12,7 +12,13 @@ namespace pnr {
 
 namespace {
 
-constexpr std::uint32_t hash_text(std::string_view word) { // FNV-1a
+std::uint64_t long_hash(std::string_view word) { // FNV-1a
+    std::uint64_t h = 14695981039346656037ull;
+    for (const char c : word) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+    return h;
+}
+
+constexpr std::uint32_t hash_text(std::string_view word) { // likewise
     std::uint32_t h = 2166136261u;
     for (const char c : word) h = (h ^ static_cast<unsigned char>(c)) * 16777619u;
     return h ^ (h >> 15);
@@ -507,6 +513,7 @@ Symbol Words::intern(std::string_view word) {
         slot = (slot + 1) & mask;
     }
     texts.emplace_back(word);
+    hashes.push_back(long_hash(word));
     table[slot] = static_cast<std::uint32_t>(texts.size());
     if (texts.size() * 2 > table.size()) { // grow, and enter everything again
         table.assign(table.size() * 2, 0);

@@ -17,6 +17,7 @@ namespace pnr {
 // The interned words: keywords first, under their own numbers.
 struct Words {
     std::deque<std::string> texts;    // by symbol
+    std::vector<std::uint64_t> hashes; // of the texts; the same in every run
     std::vector<std::uint32_t> table; // open addressing, symbol + 1; 0: free. A power of two long.
 
     Words();

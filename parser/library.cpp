@@ -274,10 +274,12 @@ bool file_exists(Parser& p, const std::string& name) {
 
 std::string resolve_file(Parser& p, const Token& at, const std::string& name) {
     const Found found = find_in(p.in, search_folders(p.in), name);
-    if (!found.path.empty()) return found.path;
-    const Found installed = find_in(p.in, povray_folders(), name);
-    if (!installed.path.empty()) return installed.path;
-    fail_missing(p, at, name, false, found.refused || installed.refused);
+    const Found installed = found.path.empty() ? find_in(p.in, povray_folders(), name) : Found{};
+    const std::string& path = found.path.empty() ? installed.path : found.path;
+    if (path.empty()) fail_missing(p, at, name, false, found.refused || installed.refused);
+    std::vector<std::string>& assets = p.in.assets;
+    if (std::find(assets.begin(), assets.end(), path) == assets.end()) assets.push_back(path);
+    return path;
 }
 
 } // namespace pnr

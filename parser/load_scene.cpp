@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cstring>
 #include <new>
 #include <optional>
@@ -114,7 +115,14 @@ LoadResult load_scene_text(std::string text, const std::string& name, const Load
         scene = {}; // make room for the message
         say_memory_ran_out(in);
     }
-    result.world_hash = in.told;
+    const double versions[] = {scene.version, scene.povray ? 1.0 : 0.0, scene.assumed_gamma,
+                               static_cast<double>(scene.noise_generator)};
+    for (std::uint64_t& told : in.told)
+        for (const double said : versions) add_told(told, std::bit_cast<std::uint64_t>(said));
+    result.world_hash = in.told[0];
+    result.camera_hash = in.told[1];
+    result.paint_hash = in.told[2];
+    result.assets = std::move(in.assets);
     result.debug_output = std::move(in.debug_output);
     if (in.errors > 0) return result;
     scene.hash = hash_of(result.sources, options);

@@ -35,8 +35,12 @@ struct LoadResult {
     Sources sources; // the texts that diagnostics point into
     std::vector<Diagnostic> diagnostics;
     std::string debug_output; // #debug text, in order
-    // Of all that was said but the cameras, after evaluation: two runs with the same one describe the same world.
+    // Of all that was said, after evaluation, but cameras, paint and what stands in other files: with the same one, the
+    // same `assets` and the same objects painted (World) two runs describe the same world.
     std::uint64_t world_hash = 0;
+    std::uint64_t camera_hash = 0;   // likewise of the cameras
+    std::uint64_t paint_hash = 0;    // likewise of paint
+    std::vector<std::string> assets; // files that the scene names, each once: pictures, meshes, fonts, densities
 };
 
 LoadResult load_scene(const std::filesystem::path& file, const LoadOptions& options);

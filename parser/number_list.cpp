@@ -46,6 +46,7 @@ void take_number_list(Parser& p) {
     TokenFrame& frame = p.in.frames.back();
     const StoredToken& token = frame.tokens[frame.position++];
     ++p.in.tokens_taken;
+    tell_text(p.in, std::string_view(p.in.sources.files[frame.source].text).substr(token.begin, token.length));
     charge_work(p, unpack(token, frame.source, frame.chain), letters_work(token.length));
 }
 

@@ -187,7 +187,7 @@ void parse_four(Parser& p, double (&numbers)[4]) {
     VectorValue v = parse_operand_expression(p, Angles::bracket);
     if (v.size != 1 && v.size < 4) fail(p, at, "four numbers are needed here");
     promote(v, 4);
-    for (int i = 0; i < 4; ++i) numbers[i] = v.v[i];
+    for (int i = 0; i < 4; ++i) tell(p.in, numbers[i] = v.v[i]);
     accept_comma(p);
 }
 

@@ -322,6 +322,7 @@ void resolve_object(const PaintWord& defaults, Object& object) {
 } // namespace
 
 void parse_npr(Parser& p, PaintWord& word) {
+    const Telling painters(p.in, Listener::paint);
     word.on = true;
     if (at(p, '{'))
         block(p, "npr", [&] { parse_npr_item(p, word); });

@@ -77,7 +77,7 @@ void add_light(Parser& p, const Token& word, LightSource light) {
 }
 
 void parse_camera_item(Parser& p) {
-    const Untold untold(p.in);
+    const Telling camera(p.in, Listener::camera);
     p.scene.camera = parse_camera(p);
     p.scene.has_camera = true;
 }
@@ -238,8 +238,8 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
         next(p);
         return parse_light_source(p);
     case "camera"_kw: {
+        const Telling camera(p.in, Listener::camera);
         next(p);
-        const Untold untold(p.in);
         return parse_camera(p);
     }
     case "sky_sphere"_kw:
@@ -255,6 +255,7 @@ std::optional<DeclaredBlock> parse_declared_block(Parser& p) {
         next(p);
         return parse_transform(p);
     case "npr"_kw: {
+        const Telling painters(p.in, Listener::paint);
         next(p);
         PaintWord paint;
         parse_npr(p, paint);

@@ -17,7 +17,10 @@ inline Token next(Parser& p) {
     if (token.kind == TokenKind::end) return token; // the end is never taken
     p.in.buffered = false;
     ++p.in.tokens_taken;
-    if (token.kind != TokenKind::number) tell(p.in, std::uint64_t{token.symbol} << 8 | static_cast<unsigned>(token.kind));
+    if (token.kind == TokenKind::word)
+        tell(p.in, p.in.words.hashes[token.symbol]);
+    else if (token.kind != TokenKind::number && token.kind != TokenKind::string) // their values are told
+        tell(p.in, std::uint64_t{token.symbol} << 8 | static_cast<unsigned>(token.kind));
     if (token.kind == TokenKind::punctuation) {
         if (token.symbol == '{')
             ++p.in.brace_depth;
@@ -73,11 +76,14 @@ const T* accept_declared(Parser& p) {
         const auto* held = std::get_if<std::shared_ptr<const DeclaredBlock>>(&element.data);
         const T* content = held ? std::get_if<T>(held->get()) : nullptr;
         if (!content) fail(p, name, std::string("this element is ") + article_name(element));
+        tell_thing(p.in, held->get());
         return content;
     }
     const auto* held = std::get_if<std::shared_ptr<const DeclaredBlock>>(&value->data);
     const T* content = held ? std::get_if<T>(held->get()) : nullptr;
-    if (content) next(p);
+    if (!content) return nullptr;
+    next(p);
+    tell_thing(p.in, held->get());
     return content;
 }
 

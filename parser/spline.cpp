@@ -125,6 +125,7 @@ std::shared_ptr<const Spline> accept_spline(Parser& p) {
     if (!spline) return nullptr;
     const std::shared_ptr<const Spline> found = *spline;
     next(p);
+    tell_thing(p.in, found.get());
     return found;
 }
 
@@ -145,6 +146,7 @@ void parse_knot(Parser& p, Spline& spline, SplineKnot& knot) {
     const Token at = peek(p);
     VectorValue point = parse_operand_expression(p, Angles::bracket);
     promote(point, 2);
+    for (const double v : point.v) tell(p.in, v);
     accept_comma(p);
     spline.components = std::max(spline.components, point.size);
     std::copy_n(point.v, point.size,
@@ -170,6 +172,7 @@ std::shared_ptr<const Spline> parse_spline(Parser& p) {
     });
     if (spline->knots.empty()) fail(p, opener, "a spline needs at least one point");
     set_bends(*spline);
+    remember_told(p.in, spline.get());
     return spline;
 }
 

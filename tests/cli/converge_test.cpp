@@ -100,9 +100,9 @@ TEST(Converge, CausesAddUp) {
     const auto rendered = [&](std::uint64_t seed) {
         Wishes wishes;
         wishes.refinement = Refinement{{}, {}, 8};
-        KeptPhotons kept;
+        Reuse none;
         Passes passes(ProgressMode::off, false);
-        return render_scene(*loaded.scene, small_settings(loaded, seed), wishes, kept, 0, passes);
+        return render_scene(*loaded.scene, small_settings(loaded, seed), wishes, none, passes);
     };
     const Rendering one = rendered(1), other = rendered(2);
     std::vector<Snapshot> run(1);
@@ -130,9 +130,9 @@ TEST(Converge, SamplesOfTheSameSeedAreTheSame) {
     Wishes wishes;
     wishes.refinement = Refinement{{}, {}, 5};
     const auto picture = [&] {
-        KeptPhotons kept;
+        Reuse none;
         Passes passes(ProgressMode::off, false);
-        return render_scene(*loaded.scene, small_settings(loaded, 3), wishes, kept, 0, passes)
+        return render_scene(*loaded.scene, small_settings(loaded, 3), wishes, none, passes)
             .picture.color.pixels;
     };
     const auto plain = picture();

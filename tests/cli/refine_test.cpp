@@ -41,8 +41,8 @@ TEST(Refine, ATimedRunIsRepeatedByItsPasses) {
 TEST(Refine, ACropOfPassesHasThePicturesBits) {
     const TemporaryFolder folder;
     folder.write("box.pnr", box_scene(few_photons));
-    ASSERT_EQ(run_pnr(folder, {"render", "box.pnr", "-W", "40", "-H", "40", "--passes", "6", "-o", "all.exr"}).code, 0);
-    ASSERT_EQ(run_pnr(folder, {"render", "box.pnr", "-W", "40", "-H", "40", "--passes", "6", "-o", "cut.exr", "--crop",
+    ASSERT_EQ(run_pnr(folder, {"render", "box.pnr", "-W", "40", "-H", "40", "--passes", "9", "-o", "all.exr"}).code, 0);
+    ASSERT_EQ(run_pnr(folder, {"render", "box.pnr", "-W", "40", "-H", "40", "--passes", "9", "-o", "cut.exr", "--crop",
                                "10,5,30,25"})
                   .code,
               0);

@@ -18,13 +18,20 @@ namespace pnr {
 
 namespace fs = std::filesystem;
 
-TemporaryFolder::TemporaryFolder() {
+namespace {
+
+fs::path make_folder() {
     std::string pattern = (fs::temp_directory_path() / "pnr-test-XXXXXX").string();
-    path_ = ::mkdtemp(pattern.data());
+    return ::mkdtemp(pattern.data());
 }
+
+} // namespace
+
+TemporaryFolder::TemporaryFolder() : path_(make_folder()), cache_(make_folder()) {}
 TemporaryFolder::~TemporaryFolder() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
+    fs::remove_all(cache_, ignored);
 }
 void TemporaryFolder::write(const std::string& name, const std::string& text) const {
     std::ofstream(path_ / name, std::ios::binary) << text;
@@ -69,6 +76,7 @@ pid_t start(const TemporaryFolder& folder, const std::vector<std::string>& argum
     argv.push_back(nullptr);
     const pid_t child = ::fork();
     if (child != 0) return child;
+    ::setenv("XDG_CACHE_HOME", folder.cache().c_str(), 1); // never the user's own
     for (const auto& [name, value] : environment) ::setenv(name.c_str(), value.c_str(), 1);
     ::dup2(in.read, 0);
     ::dup2(out.write, 1);
@@ -129,6 +137,48 @@ Ran run_pnr(const TemporaryFolder& folder, const std::vector<std::string>& argum
 Ran run_pnr_and_signal(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int signal,
                        const std::string& signal_at) {
     return run(folder, arguments, {}, "", signal, signal_at);
+}
+
+struct RunningPnr::Ends {
+    Pipe in, out, err;
+};
+
+RunningPnr::RunningPnr(const TemporaryFolder& folder, const std::vector<std::string>& arguments)
+    : ends_(std::make_unique<Ends>()) {
+    child_ = start(folder, arguments, {}, ends_->in, ends_->out, ends_->err);
+    Pipe::close_end(ends_->err.write);
+}
+
+RunningPnr::~RunningPnr() {
+    if (child_ < 0) return;
+    signal(SIGKILL);
+    end();
+}
+
+bool RunningPnr::says(const std::string& text) {
+    constexpr int longest_ms = 100'000; // on a machine that does much else
+    for (;;) {
+        const std::size_t at = err_.find(text, read_);
+        if (at != std::string::npos) {
+            read_ = at + text.size();
+            return true;
+        }
+        pollfd watched{ends_->err.read, POLLIN, 0};
+        if (::poll(&watched, 1, longest_ms) <= 0) return false;
+        char buffer[4096];
+        const ssize_t got = ::read(ends_->err.read, buffer, sizeof buffer);
+        if (got <= 0) return false;
+        err_.append(buffer, static_cast<std::size_t>(got));
+    }
+}
+
+void RunningPnr::signal(int signal) const { ::kill(child_, signal); }
+
+int RunningPnr::end() {
+    int status = 0;
+    ::waitpid(child_, &status, 0);
+    child_ = -1;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
 std::string box_scene(const std::string& more) {

@@ -80,6 +80,41 @@ ProgressiveSum made_up_run(int batches, double slope, double noise, int side) {
     return sum;
 }
 
+TEST(Shares, NoisyPixelsTakeMoreSamplesAndQuietOnesOne) {
+    std::mt19937 rng(3);
+    std::normal_distribution<float> normal(0, 1);
+    ProgressiveSum sum;
+    // Columns whose samples are off by 1 %, 18 % and 200 % of what they show.
+    const float noise[3] = {0.01f, 0.18f, 2.0f};
+    for (int pass = 1; pass <= 4 * 40; ++pass) {
+        RenderResult result = flat_pass(3, 1, 0.5f);
+        for (int x = 0; x < 3; ++x) { // as a pass that took its share of samples
+            const float share = static_cast<float>(samples_of(mapped_step(pass), sum).share(x, 0));
+            result.layer.color.at(x, 0) += Color{0.52f * noise[x] * normal(rng) / std::sqrt(share)};
+        }
+        add_pass(sum, mapped_step(pass), std::move(result));
+    }
+    EXPECT_EQ(sum.shares.at(0, 0), 1);
+    EXPECT_EQ(sum.shares.at(1, 0), 3) << "18 % over 6 %, whatever it took so far";
+    EXPECT_EQ(sum.shares.at(2, 0), 4) << "the most";
+}
+
+TEST(Shares, APixelTakesItsShareOfSamples) {
+    Scene scene = test::furnace(4, 1, 0.5f, 1);
+    Settings settings;
+    settings.render.width = settings.render.height = 8;
+    const World world = build_world(scene, settings);
+    const PictureView view{world.camera, 8, 8};
+    const PixelRect window{0, 0, 8, 8};
+    const GBuffer gbuffer = make_gbuffer(world, view, window, settings.render);
+    Image<std::uint8_t> shares(8, 8, std::uint8_t{1});
+    shares.at(2, 3) = 4;
+    const SampleRange one{1, 1, nullptr}, more{1, 1, &shares};
+    const std::int64_t rays = render(world, gbuffer, {}, settings, window, false, {}, one).camera_rays;
+    EXPECT_EQ(rays, 64);
+    EXPECT_EQ(render(world, gbuffer, {}, settings, window, false, {}, more).camera_rays, 67);
+}
+
 TEST(EstimateError, NoiseIsTheStandardErrorOfTheMean) {
     const ProgressiveSum sum = made_up_run(12, 0, 0.2, 64);
     const ErrorEstimate error = estimate_error(sum, {0, 0, 64, 64});

@@ -29,7 +29,7 @@ inline ProgressiveSum run_passes(const World& world, const Settings& settings, i
         }
         if (photons && !step.preview && !map.field)
             map.field = make_irradiance_field(world, map, {step.shrink, 0});
-        add_pass(sum, step, render(world, gbuffer, map, own, window, false, {}, step.samples));
+        add_pass(sum, step, render(world, gbuffer, map, own, window, false, {}, samples_of(step, sum)));
     }
     return sum;
 }
