@@ -69,8 +69,7 @@ void add_estimate(const Rendering& r, Snapshot& snapshot) {
     const double n = sum.batches, mean_shrink = sum.shrinks / n;
     const double spread = sum.shrinks2 - sum.shrinks * mean_shrink;
     if (sum.batches < 2) return;
-    constexpr double sure = 2;         // standard errors
-    constexpr double batch_passes = 4; // progressive.h
+    constexpr double sure = 2; // standard errors
     const double floor = 0.1 * mean_of(snapshot.photoreal, snapshot.mask);
     BlockMeans noise(snapshot.mask.width, snapshot.mask.height), bias = noise;
     for (int y = 0; y < snapshot.mask.height; ++y)
@@ -86,8 +85,7 @@ void add_estimate(const Rendering& r, Snapshot& snapshot) {
             const double slope = along / spread * mean_shrink;
             bias.add(x, y, (slope * slope - own2 * n / spread * mean_shrink * mean_shrink) / scale);
         }
-    // The picture also holds the passes of the batch under way.
-    snapshot.noise = std::sqrt(noise.mean() * std::min(1.0, n * batch_passes / sum.passes));
+    snapshot.noise = std::sqrt(noise.mean());
     const double bias2 = bias.mean();
     snapshot.bias = bias2 > sure * bias.standard_error() ? std::sqrt(bias2) : 0.0;
 }
@@ -158,6 +156,8 @@ std::vector<Snapshot> run_budgets(const Scene& scene, const Settings& settings, 
     wishes.after_pass = [&](Rendering& r) {
         const double wall = std::chrono::duration<double>(Clock::now() - begin).count();
         if (wall < budgets[next]) return true;
+        // Whole batches alone: that is what theory and the estimate speak of.
+        if (r.progressive.batches > 0 && r.progressive.open_passes > 0) return true;
         complete_picture(r);
         Snapshot s;
         while (next < budgets.size() && wall >= budgets[next]) s.budget_s = budgets[next++];

@@ -44,7 +44,7 @@ struct Snapshot {
     std::vector<PassTime> times;
 };
 // One progressive run, looked at when each of the budgets (seconds of wall time, rising) is used up, at the
-// end of the pass under way. The last one ends the run.
+// end of the batch of passes under way, or of the pass while the first batch is. The last one ends the run.
 std::vector<Snapshot> run_budgets(const Scene& scene, const Settings& settings, const Budgets& limits,
                                   const std::vector<double>& budgets, ProgressMode progress);
 

@@ -53,8 +53,8 @@ void run_again(const Scene& scene, const Settings& settings, Wishes wishes,
             look(next++, r.rendered.layer.color);
         return next < snapshots.size();
     };
-    Reuse nothing_kept;
-    render_scene(scene, settings, wishes, nothing_kept, passes);
+    Reuse reuse;
+    render_scene(scene, settings, wishes, reuse, passes);
 }
 
 // ---- paint
@@ -88,13 +88,15 @@ Painting paint_maps(const World& world, const Settings& settings) {
     return painting;
 }
 
+bool is_known(const Informed& p) { return p.kind == PixelKind::source || p.kind == PixelKind::interpolated; }
+
 // Axes as angles: twice the angle is what is compared, so that no axis has a head.
 double field_error(const Rendering& r) {
     double sum = 0, count = 0;
     for (std::size_t i = 0; i < r.paint.informative.pixels.size(); ++i) {
         const Informed& p = r.paint.informative.pixels[i];
         const Seen& seen = r.gbuffer.seen.pixels[i];
-        if (p.kind != PixelKind::interpolated || p.via != 0 || p.object != seen.object) continue;
+        if (!is_known(p) || p.via != 0 || p.object != seen.object) continue;
         const auto& field = r.paint.fields.fields[p.object];
         if (!field) continue;
         const Vec3 position(seen.position), axis = eval_orientation(*field, position, Vec3(seen.normal));
@@ -108,13 +110,13 @@ double field_error(const Rendering& r) {
     return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
-// Colours of two maps as pictures, and the pixels that both interpolate.
+// Colours of two maps as pictures, and the pixels that both know.
 double map_error(const Rendering& a, const Rendering& b) {
     Image<Color> x(a.settings.render.width, a.settings.render.height), y = x;
     Image<float> mask(x.width, x.height, 0.0f);
     for (std::size_t i = 0; i < x.pixels.size(); ++i) {
         const Informed &p = a.paint.informative.pixels[i], &q = b.paint.informative.pixels[i];
-        if (p.kind != PixelKind::interpolated || q.kind != PixelKind::interpolated) continue;
+        if (!is_known(p) || !is_known(q)) continue;
         x.pixels[i] = p.radiance, y.pixels[i] = q.radiance;
         mask.pixels[i] = 1;
     }

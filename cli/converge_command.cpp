@@ -156,9 +156,10 @@ std::vector<std::string> settings_in(const std::vector<Row>& rows) {
 using Reading = std::function<std::optional<double>(const Row&)>;
 std::vector<std::pair<double, double>> points_of(const std::vector<Row>& rows, const std::string& setting,
                                                  const Reading& read, bool over_passes = false) {
+    // Within the first batch samples are stratified and passes share their photons: no law holds for these yet.
     std::vector<std::pair<double, double>> points;
     for (const Row& row : rows)
-        if (const auto value = read(row); row.setting == setting && value)
+        if (const auto value = read(row); row.setting == setting && value && (!over_passes || row.snapshot.passes >= 4))
             points.emplace_back(over_passes ? row.snapshot.passes : row.snapshot.cpu_s, *value);
     return points;
 }
@@ -269,7 +270,9 @@ std::string page(const std::string& scene, const std::vector<Row>& rows, const s
         parts.push_back({name + "estimated noise", points_of(rows, setting, noise_of), false});
         parts.push_back({name + "estimated bias", points_of(rows, setting, bias_of), false});
     }
-    std::string body = "<p>" + html_text(conclusion) + "</p>";
+    std::string body = "<p>";
+    for (const char c : conclusion) body += c == '\n' ? "<br>\n" : html_text(std::string(1, c));
+    body += "</p>";
     body += html_log_plot("Error against time", "CPU seconds", "relative RMSE", errors);
     body += html_log_plot("What the run itself says of its error", "CPU seconds", "relative", parts);
     body += causes_part(rows, paint);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How different two pictures look when one flips between them: FLIP [Andersson, Nilsson, Akenine-Moeller,
-// Oskarsson, Astrom and Fairchild 2020], for pictures as displayed.
+// How different two pictures look when one flips between them: FLIP [Andersson et al. 2020], for pictures as displayed.
 #pragma once
 
 #include "core/image.h"

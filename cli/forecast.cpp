@@ -16,7 +16,7 @@ namespace pnr {
 
 namespace {
 
-// Of the small picture: a third of the width, between these. In a smaller one too little is seen of what
+// Of the small picture: three eighths of the width, between these. In a smaller one too little is seen of what
 // there is.
 constexpr int least_width = 48, most_width = 112;
 // Photons of the small run: as many fewer as there are pixels fewer, so that it looks alike, but enough for
@@ -44,7 +44,7 @@ double grown(double seconds, Law law, const Scale& scale) {
 constexpr Law photons_law{1, 0}, kdtree_law{1, 0}, gbuffer_law{0, 0.75}, orient_law{1, 0},
     informative_law{0, 1.25}, ilic_law{0, 1.1};
 constexpr Law sparse_law{1, 0},
-    sparse_records_law{0.4, 0.2}; // source photons' light; the records that it asks for
+    sparse_records_law{0.45, 0.2}; // source photons' light; the records that it asks for
 constexpr Law render_law{0, 0.85}, render_records_law{0.2, 0};
 // Writing a PNG: s and s a pixel, where the above was measured (2.6 GHz); and keeping what a painted picture is made of for
 // later runs.
@@ -262,7 +262,7 @@ Forecast forecast(World world, const Settings& settings, const Plan& plan,
     small.plan = plan;
     small.settings = settings;
     RenderSettings& picture = small.settings.render;
-    f.small_width = picture.width = std::min(size.width, std::clamp(size.width / 3, least_width, most_width));
+    f.small_width = picture.width = std::min(size.width, std::clamp(3 * size.width / 8, least_width, most_width));
     picture.height = std::max(
         1, static_cast<int>(std::lround(static_cast<double>(picture.width) / size.width * size.height)));
     Scale scale;

@@ -344,8 +344,8 @@ void add_converge(CLI::App& parent, Options& options, Words& words, std::optiona
     add_progress(app, progress);
     app.footer("One progressive run is looked at whenever a budget is used up. Error is measured over the photoreal pixels,\n"
                "against two independent references whose own noise drops out: root mean squares, absolute and relative to\n"
-               "light + a tenth of the mean; the ratio of means; the 99th percentile; FLIP, how different they look, 0 to 1;\n"
-               "and beside them what the run itself estimates as its noise and bias. --causes adds photon noise (a second\n"
+               "light + a tenth of the mean; the ratio of means; the 99th percentile and FLIP, how different they look, 0 to 1\n"
+               "(both with the references' noise); and beside them what the run itself estimates as its noise and bias. --causes adds photon noise (a second\n"
                "run with other photons), sample noise (edges and shadow rays: a third with other samples), kernel bias (what\n"
                "the true error holds beyond both), and of a painting the errors of field, informative map and ILIC.\n\n"
                "Examples:\n  pnr converge box.pnr -W 256 --reference-time 60 --html box.html\n"
@@ -444,7 +444,7 @@ struct Parsing {
 
     Parsing() {
         app.set_help_flag("-h,--help", "Print this help");
-        app.set_version_flag("--version", fmt::format("pnr {}", version()));
+        app.set_version_flag("--version", version_line());
         app.require_subcommand(1);
         add_render(app, options, words, progress);
         add_watch(app, options, words, progress);

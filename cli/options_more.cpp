@@ -3,10 +3,20 @@
 
 #include "cli/shell_files.h"
 #include "cli/tev_view.h"
+#include "core/module.h"
 
 #include <CLI/CLI.hpp>
 
 namespace pnr {
+
+std::string version_line() {
+    const std::string lacks = left_out_parts();
+    return std::string("pnr ") + version() + (lacks.empty() ? "" : " (without " + lacks + ")");
+}
+
+void add_render_page(CLI::App& app, Options& options) {
+    app.add_option("--html", options.html, "Write a page: passes, memory, maps as pictures, error, plan")->type_name("FILE");
+}
 
 void add_tev(CLI::App& app, std::optional<std::string>& place) {
     app.add_option("--tev", place,
@@ -31,10 +41,6 @@ void finish_tev(Options& options, const std::optional<std::string>& place, std::
 void add_cache(CLI::App& app, Options& options) {
     app.add_flag_callback("--no-cache", [&options] { options.cache = false; },
                           "Use no results of earlier runs and keep none; the picture is the same");
-}
-
-void add_render_page(CLI::App& app, Options& options) {
-    app.add_option("--html", options.html, "Write a page: passes, memory, maps as pictures, error, plan")->type_name("FILE");
 }
 
 void add_fmt(CLI::App& parent, Options& options) {

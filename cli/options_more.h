@@ -13,14 +13,16 @@ class App;
 
 namespace pnr {
 
+// What --version says: also the parts that this build lacks.
+std::string version_line();
+// --html of `render`.
+void add_render_page(CLI::App& app, Options& options);
 // --tev, whose place may be left out; finish_tev sets what was meant, and gives `scene` what is no place.
 void add_tev(CLI::App& app, std::optional<std::string>& place);
 void finish_tev(Options& options, const std::optional<std::string>& place, std::string& scene);
 // --no-cache, of commands that render.
 void add_cache(CLI::App& app, Options& options);
 
-// --html of `render`.
-void add_render_page(CLI::App& app, Options& options);
 void add_fmt(CLI::App& parent, Options& options);
 void add_init(CLI::App& parent, Options& options);
 void add_lsp(CLI::App& parent, Options& options);

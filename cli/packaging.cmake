@@ -16,7 +16,11 @@ add_custom_command(
 add_custom_target(pnr_said ALL DEPENDS ${pnr_said}/pnr.1)
 
 install(TARGETS pnr RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(TARGETS pnr_image pnr_font LIBRARY DESTINATION lib/pnr) # where core/module.cpp looks: beside bin
+foreach(module pnr_image pnr_font)
+    if(TARGET ${module})
+        install(TARGETS ${module} LIBRARY DESTINATION lib/pnr) # where core/module.cpp looks: beside bin
+    endif()
+endforeach()
 install(FILES ${pnr_said}/pnr.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${pnr_said}/pnr.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME pnr)
 install(FILES ${pnr_said}/_pnr DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)

@@ -3,6 +3,7 @@
 
 #include "cli/parts.h"
 #include "core/atomic_file.h"
+#include "core/module.h"
 
 #include <fmt/format.h>
 
@@ -99,6 +100,8 @@ void check_writable(const fs::path& file) {
 }
 
 void check_output(const fs::path& output) {
+    if (is_exr(output) && std::string(left_out_parts()).find("OpenImageIO") != std::string::npos)
+        throw FileError("this pnr was built without OpenImageIO: it writes no EXR");
     if (output == "-") return;
     if (!is_png(output) && !is_exr(output))
         throw UsageError(fmt::format("-o {}: a picture's name ends in .png or .exr", output.string()));

@@ -70,8 +70,7 @@ void write_results(const LoadResult& loaded, const Rendering& r, const Options& 
                 write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
             if (!files.maps.empty()) write_maps(r, files.maps);
             if (!files.html.empty())
-                write_file_atomically(files.html,
-                                      render_page(*loaded.scene, r, passes.times(), all_warnings(loaded, r)));
+                write_file_atomically(files.html, render_page(*loaded.scene, r, passes.times(), all_warnings(loaded, r)));
         });
     });
     if (files.stats.empty()) return;

@@ -13,7 +13,7 @@ namespace {
 
 const FontModule& font_module() {
     static const auto& module = *static_cast<const FontModule*>(
-        open_module({"font", "libpnr_font.so", "PNR_FONT_MODULE", font_module_symbol, font_module_version}));
+        open_module({"font", "FreeType", "libpnr_font.so", "PNR_FONT_MODULE", font_module_symbol, font_module_version}));
     return module;
 }
 

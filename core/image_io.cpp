@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 // failure the next picture tries again.
 const ImageModule& image_module() {
     static const auto& module = *static_cast<const ImageModule*>(open_module(
-        {"image", "libpnr_image.so", "PNR_IMAGE_MODULE", image_module_symbol, image_module_version}));
+        {"image", "OpenImageIO", "libpnr_image.so", "PNR_IMAGE_MODULE", image_module_symbol, image_module_version}));
     return module;
 }
 

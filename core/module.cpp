@@ -28,7 +28,11 @@ std::vector<fs::path> module_places(const ModuleName& name) {
 
 } // namespace
 
+const char* left_out_parts() { return PNR_LEFT_OUT; }
+
 const void* open_module(const ModuleName& name) {
+    if (std::string(left_out_parts()).find(name.links) != std::string::npos)
+        throw FileError(std::string("this pnr was built without ") + name.links);
     std::string reasons;
     for (const fs::path& place : module_places(name)) {
         void* library = ::dlopen(place.c_str(), RTLD_NOW | RTLD_LOCAL);

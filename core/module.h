@@ -8,6 +8,7 @@ namespace pnr {
 // version.
 struct ModuleName {
     const char* what;        // "image"
+    const char* links;       // the heavy library behind it, as left_out_parts names it
     const char* library;     // "libpnr_image.so"
     const char* environment; // a variable that names the library's file instead
     const char* symbol;
@@ -18,5 +19,8 @@ struct ModuleName {
 // beside the program in a build folder or an installation, or where the program's linker looks; it is never closed. Throws FileError if it is not
 // there or of another build.
 const void* open_module(const ModuleName& name);
+
+// The libraries that this build was made without (cmake -DPNR_WITH_...=OFF), "FreeType, OpenImageIO"; "" if it has all.
+const char* left_out_parts();
 
 } // namespace pnr

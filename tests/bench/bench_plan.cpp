@@ -82,7 +82,7 @@ int main(int count, char** words) {
     std::printf("foretold/measured; shares in %%\n");
     for (const fs::path& scene : scenes) {
         const std::string name = scene.stem().string();
-        const pnr::Words plan{PNR_BINARY, "plan", scene.string(), "-W", width, "--format", "json"};
+        const pnr::Words plan{PNR_BINARY, "plan", scene.string(), "-W", width, "--format", "json", "--no-cache"};
         const pnr::Process said = pnr::run_process(plan, fs::current_path(), folder / "plan.log", 100'000);
         const json stats =
             said.code == 0 ? pnr::render_stats(folder, name, {scene.string(), "-W", width}) : json();

@@ -22,7 +22,7 @@ inline nlohmann::json render_stats(const std::filesystem::path& folder, const st
                                    const Words& options, const std::string& frame = "") {
     const std::filesystem::path stats = folder / (name + ".json");
     Words words{PNR_BINARY, "render",       "-o",         (folder / (name + ".exr")).string(),
-                "--stats",  stats.string(), "--progress", "off"};
+                "--stats",  stats.string(), "--progress", "off", "--no-cache"};
     words.insert(words.end(), options.begin(), options.end());
     const Process run =
         run_process(words, std::filesystem::current_path(), folder / (name + ".log"), 100'000);
