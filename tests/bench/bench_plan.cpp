@@ -2,8 +2,8 @@
 // bench_plan [-W N] [SCENE...]: what `pnr plan` foretells beside what `pnr render --stats` then says, for
 // these scenes or every scene of the project; meshes are looked for in PNR_LIBRARY_PATH, and scenes that do
 // not load are left out. Shares of CPU time are compared where either side says more than 5 %, memory at the
-// end of `render` and of the whole, structures from 1 MB on. Worst ratios come last: `time` should be below
-// 2, `memory` below 1.3.
+// end of `render` and of the whole, structures from 1 MB on; a/b is foretold and measured. Worst ratios come
+// last: `time` should be below 2, `memory` below 1.3.
 #include "run_scene.h"
 
 #include <cmath>
@@ -35,6 +35,7 @@ Compared compare(const json& foretold, const json& stats) {
     for (const json& pass : foretold["passes"]) passes[pass["name"]] = pass;
     const double whole = pnr::cpu_seconds(stats);
     Compared c;
+    std::string shares, memory;
     char cell[80];
     double said = 0, peak = 0, peak_said = 0;
     for (const json& pass : stats["passes"]) {
@@ -45,13 +46,14 @@ Compared compare(const json& foretold, const json& stats) {
         peak_said = std::max(peak_said, passes[name]["peak_rss_mb"].get<double>());
         if (std::max(share, guess) > 0.05) {
             c.time.take(off(guess, share), name);
-            std::snprintf(cell, sizeof cell, " %s %.0f/%.0f", name.c_str(), 100 * guess, 100 * share);
-            c.text += cell;
+            std::snprintf(cell, sizeof cell, "%s%s %.0f/%.0f", shares.empty() ? "" : ", ", name.c_str(),
+                          100 * guess, 100 * share);
+            shares += cell;
         }
         if (name == "render" || name == "write") {
             c.memory.take(off(peak_said, peak), name);
-            std::snprintf(cell, sizeof cell, " | MB by %s %.0f/%.0f", name.c_str(), peak_said, peak);
-            c.text += cell;
+            std::snprintf(cell, sizeof cell, " %.0f/%.0f |", peak_said, peak);
+            memory += cell;
         }
     }
     for (const json& structure : foretold["structures"]) {
@@ -59,8 +61,8 @@ Compared compare(const json& foretold, const json& stats) {
                      guess = structure["bytes"];
         if (std::max(bytes, guess) > 1 << 20) c.memory.take(off(guess, bytes), structure["name"]);
     }
-    std::snprintf(cell, sizeof cell, " | CPU s %.1f/%.1f", said, whole);
-    c.text += cell;
+    std::snprintf(cell, sizeof cell, " %.1f/%.1f |", said, whole);
+    c.text = " " + shares + " |" + memory + cell;
     return c;
 }
 
@@ -79,25 +81,27 @@ int main(int count, char** words) {
     const fs::path folder = fs::temp_directory_path() / "bench_plan";
     fs::create_directories(folder);
     Worst time, memory;
-    std::printf("foretold/measured; shares in %%\n");
+    std::printf("| scene | time | memory | CPU time, %% | MB by render | MB in all | CPU s |\n"
+                "|---|---|---|---|---|---|---|\n");
     for (const fs::path& scene : scenes) {
         const std::string name = scene.stem().string();
-        const pnr::Words plan{PNR_BINARY, "plan", scene.string(), "-W", width, "--format", "json", "--no-cache"};
+        const pnr::Words plan{PNR_BINARY, "plan",     scene.string(), "-W",
+                              width,      "--format", "json",         "--no-cache"};
         const pnr::Process said = pnr::run_process(plan, fs::current_path(), folder / "plan.log", 100'000);
         const json stats =
             said.code == 0 ? pnr::render_stats(folder, name, {scene.string(), "-W", width}) : json();
         if (stats.is_null()) {
-            std::printf("%-32s left out: it does not load\n", name.c_str());
+            std::fprintf(stderr, "%s is left out: it does not load\n", name.c_str());
             continue;
         }
         const Compared c = compare(json::parse(said.text.substr(said.text.find('{')))["forecast"], stats);
-        std::printf("%-32s time x%.2f (%s) memory x%.2f (%s) |%s\n", name.c_str(), c.time.value,
-                    c.time.what.c_str(), c.memory.value, c.memory.what.c_str(), c.text.c_str());
+        std::printf("| %s | %.2f %s | %.2f %s |%s\n", name.c_str(), c.time.value, c.time.what.c_str(),
+                    c.memory.value, c.memory.what.c_str(), c.text.c_str());
         std::fflush(stdout);
         time.take(c.time.value, name + " " + c.time.what);
         memory.take(c.memory.value, name + " " + c.memory.what);
     }
-    std::printf("worst: time x%.2f (%s), memory x%.2f (%s)\n", time.value, time.what.c_str(), memory.value,
+    std::printf("\nWorst: time %.2f (%s), memory %.2f (%s).\n", time.value, time.what.c_str(), memory.value,
                 memory.what.c_str());
     return 0;
 }
