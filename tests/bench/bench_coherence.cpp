@@ -17,6 +17,7 @@
 #include "core/irradiance_field.h"
 #include "core/trace_photons.h"
 #include "npr/color_space.h"
+#include "npr/hidden_sources.h"
 #include "npr/masked_blur.h"
 #include "npr/paint.h"
 #include "npr/picture_ilic.h"
@@ -136,6 +137,7 @@ Image<Color> paint_ours(const Shot& shot, const Shown& frame) {
     const std::uint64_t seed = shot.settings.render.seed;
     SparseMap sparse = make_sparse_map(shot.world, frame.gbuffer, shot.photons, shot.settings);
     orient_strokes(sparse, shot.world, frame.gbuffer, shot.photons, shot.oriented);
+    if (auto shown = without_hidden(sparse, shot.world, frame.gbuffer, shot.photons)) sparse = std::move(*shown);
     const InformativeMap informative = make_informative_map(sparse, shot.world, frame.gbuffer, seed);
     return convolve(informative, find_seats(shot.world, frame.gbuffer, shot.photons), shot.world,
                     frame.gbuffer, seed)

@@ -24,7 +24,7 @@ TEST(ParseNpr, TheWordAlone) {
 
 TEST(ParseNpr, AllItems) {
     const PaintStyle s = style_of(R"(
-        seeds { seed { <0, 1, 0>, x } seed { <1, 0, 0>, y weight 2 } rbf { kernel triharmonic smooth 0.1 neighbours 4 } }
+        seeds { seed { <0, 1, 0>, x } seed { <1, 0, 0>, y weight 2 } rbf { kernel triharmonic distance geodesic smooth 0.1 neighbours 4 } }
         field around <1, 2, 3>, y weight 0.4
         interpolation { radius 7 fill random folds on }
         ilic { length 39 cell 6 noise 0.04, 0.03 edge 12 gaussian 21, 11 step 0.25 size 0.7 }
@@ -33,6 +33,7 @@ TEST(ParseNpr, AllItems) {
     ASSERT_EQ(s.seeds.size(), 2u);
     EXPECT_EQ(s.seeds[1].weight, 2);
     EXPECT_EQ(s.kernel, RbfKernel::triharmonic);
+    EXPECT_EQ(s.distance, SeedDistance::geodesic);
     EXPECT_EQ(s.smooth, 0.1);
     EXPECT_EQ(s.neighbours, 4);
     EXPECT_EQ(s.field, FieldSource::around);
