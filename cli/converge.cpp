@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "cli/converge.h"
 
-#include "npr/color_space.h"
+#include "cli/flip.h"
 
 #include <algorithm>
 #include <chrono>
@@ -24,37 +24,72 @@ double mean_of(const Image<Color>& image, const Image<float>& mask) {
     return count > 0 ? sum / count : 0;
 }
 
-Color as_displayed(Color c) { return oklab_from_linear(glm::clamp(c, Color(0), Color(1))); }
-
 double seconds_of_cpu() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+// Relative mean squares of a picture's blocks: their mean, and its standard error as the blocks' spread tells
+// it.
+struct BlockMeans {
+    int across = 1;
+    std::vector<double> sums, counts;
+
+    explicit BlockMeans(int width, int height)
+        : across((width + side - 1) / side),
+          sums(static_cast<std::size_t>(across * ((height + side - 1) / side)), 0.0), counts(sums) {}
+    void add(int x, int y, double value) {
+        const auto block = static_cast<std::size_t>(y / side * across + x / side);
+        sums[block] += value;
+        counts[block] += 1;
+    }
+    double mean() const {
+        double sum = 0, count = 0;
+        for (std::size_t i = 0; i < sums.size(); ++i) sum += sums[i], count += counts[i];
+        return count > 0 ? sum / count : 0;
+    }
+    double standard_error() const {
+        const double m = mean();
+        double squares = 0, count = 0;
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            const double off = sums[i] - m * counts[i];
+            squares += off * off;
+            count += counts[i];
+        }
+        return count > 0 ? std::sqrt(squares) / count : 0;
+    }
+    static constexpr int side = 16; // pixels; photons are blurred over less
+};
 
 // Relative roots of the mean squares of noise and bias, against the picture's own light, from each pixel's
 // own batches: their squares are right in the mean, so the sum over all pixels needs no smoothing (which
 // pictures of the error need, and which carries the noise at a lamp's rim to the dark pixels beside it). What
-// noise alone makes of the slope over the batches' widths is taken off the bias.
+// noise alone makes of the slope over the batches' widths is taken off the bias; of few batches it makes
+// several times the noise itself, and neighbours share it, so that the rest counts only where it stands out
+// of its own standard error over blocks of pixels.
 void add_estimate(const Rendering& r, Snapshot& snapshot) {
     const ProgressiveSum& sum = r.progressive;
     const double n = sum.batches, mean_shrink = sum.shrinks / n;
     const double spread = sum.shrinks2 - sum.shrinks * mean_shrink;
     if (sum.batches < 2) return;
+    constexpr double sure = 2;         // standard errors
+    constexpr double batch_passes = 4; // progressive.h
     const double floor = 0.1 * mean_of(snapshot.photoreal, snapshot.mask);
-    double noise2 = 0, bias2 = 0, count = 0;
-    for (std::size_t i = 0; i < snapshot.mask.pixels.size(); ++i) {
-        const double light = static_cast<double>(luminance(snapshot.photoreal.pixels[i]));
-        const double scale = light * light + floor * floor;
-        if (snapshot.mask.pixels[i] <= 0 || !(scale > 0)) continue;
-        ++count;
-        const double own2 = static_cast<double>(sum.batch_squares.pixels[i]) / (n * (n - 1));
-        noise2 += own2 / scale;
-        if (sum.batches < 3 || spread < 1e-9) continue;
-        const double along = static_cast<double>(sum.batch_slope.pixels[i]) -
-                             sum.shrinks * static_cast<double>(sum.batch_mean.pixels[i]);
-        const double bias = along / spread * mean_shrink;
-        bias2 += (bias * bias - own2 * n / spread * mean_shrink * mean_shrink) / scale;
-    }
-    if (count == 0) return;
-    snapshot.noise = std::sqrt(noise2 / count);
-    snapshot.bias = std::sqrt(std::max(0.0, bias2 / count));
+    BlockMeans noise(snapshot.mask.width, snapshot.mask.height), bias = noise;
+    for (int y = 0; y < snapshot.mask.height; ++y)
+        for (int x = 0; x < snapshot.mask.width; ++x) {
+            const double light = static_cast<double>(luminance(snapshot.photoreal.at(x, y)));
+            const double scale = light * light + floor * floor;
+            if (snapshot.mask.at(x, y) <= 0 || !(scale > 0)) continue;
+            const double own2 = static_cast<double>(sum.batch_squares.at(x, y)) / (n * (n - 1));
+            noise.add(x, y, own2 / scale);
+            if (sum.batches < 3 || spread < 1e-9) continue;
+            const double along = static_cast<double>(sum.batch_slope.at(x, y)) -
+                                 sum.shrinks * static_cast<double>(sum.batch_mean.at(x, y));
+            const double slope = along / spread * mean_shrink;
+            bias.add(x, y, (slope * slope - own2 * n / spread * mean_shrink * mean_shrink) / scale);
+        }
+    // The picture also holds the passes of the batch under way.
+    snapshot.noise = std::sqrt(noise.mean() * std::min(1.0, n * batch_passes / sum.passes));
+    const double bias2 = bias.mean();
+    snapshot.bias = bias2 > sure * bias.standard_error() ? std::sqrt(bias2) : 0.0;
 }
 
 } // namespace
@@ -67,13 +102,13 @@ PictureError picture_error(const Image<Color>& x, const Reference& reference, co
     for (std::size_t i = 0; i < truth.pixels.size(); ++i)
         truth.pixels[i] = 0.5f * (reference.a.pixels[i] + reference.b.pixels[i]);
     const double mean = mean_of(truth, mask), floor = 0.1 * mean;
-    double squares = 0, relative = 0, perceived = 0, pixels = 0;
+    const Image<float> seen = flip(truth, x);
+    double squares = 0, relative = 0, flips = 0, pixels = 0;
     std::vector<double> ratios;
     for (std::size_t i = 0; i < x.pixels.size(); ++i) {
         if (mask.pixels[i] <= 0) continue;
         ++pixels;
-        perceived +=
-            static_cast<double>(glm::distance(as_displayed(x.pixels[i]), as_displayed(truth.pixels[i])));
+        flips += static_cast<double>(seen.pixels[i]);
         for (int k = 0; k < 3; ++k) {
             const auto value = [&](const Image<Color>& image) {
                 return static_cast<double>(image.pixels[i][k]);
@@ -94,7 +129,7 @@ PictureError picture_error(const Image<Color>& x, const Reference& reference, co
         ratios.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(ratios.size() - 1));
     std::nth_element(ratios.begin(), rank, ratios.end());
     error.relative_99 = *rank;
-    error.perceived = 100 * perceived / pixels;
+    error.flip = flips / pixels;
     return error;
 }
 

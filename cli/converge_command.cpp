@@ -90,10 +90,26 @@ std::string number(const std::optional<double>& value) { return value ? number(*
 
 double estimate(const Snapshot& s) { return std::sqrt(*s.noise * *s.noise + *s.bias * *s.bias); }
 
+// What the true error holds beyond noise; nothing where it is hidden by that, or a reference or the causes lack.
+std::optional<double> kernel_bias(const Row& row) {
+    const Snapshot& s = row.snapshot;
+    if (!row.error || !s.photon_noise || !s.sample_noise) return {};
+    const double noise2 = *s.photon_noise * *s.photon_noise + *s.sample_noise * *s.sample_noise;
+    const double left2 = row.error->relative_rmse * row.error->relative_rmse - noise2;
+    return left2 > 0 ? std::optional(std::sqrt(left2)) : std::nullopt;
+}
+
+HtmlTable paint_table(const std::vector<PaintCauses>& causes) {
+    HtmlTable table{{"photons", "cpu_s", "field_degrees", "map_relative", "ilic"}, {}, {}};
+    for (const PaintCauses& c : causes)
+        table.rows.push_back({fmt::format("x {:g}", c.photons), number(c.cpu_s), number(c.field), number(c.map), number(c.ilic)});
+    return table;
+}
+
 HtmlTable as_table(const std::vector<Row>& rows) {
     HtmlTable table{{"setting", "budget_s", "wall_s", "cpu_s", "passes", "rmse", "relative_rmse",
-                     "mean_ratio", "relative_99", "perceived", "estimated_noise", "estimated_bias",
-                     "estimated/true"},
+                     "mean_ratio", "relative_99", "flip", "estimated_noise", "estimated_bias", "estimated/true",
+                     "photon_noise", "sample_noise", "kernel_bias"},
                     {},
                     {}};
     for (const Row& row : rows) {
@@ -102,7 +118,7 @@ HtmlTable as_table(const std::vector<Row>& rows) {
                                        fmt::format("{}", s.passes)};
         if (row.error)
             for (const double value : {row.error->rmse, row.error->relative_rmse, row.error->mean_ratio,
-                                       row.error->relative_99, row.error->perceived})
+                                       row.error->relative_99, row.error->flip})
                 cells.push_back(number(value));
         else
             cells.resize(cells.size() + 5);
@@ -110,6 +126,9 @@ HtmlTable as_table(const std::vector<Row>& rows) {
         cells.push_back(number(s.bias));
         const bool both = row.error && s.noise && row.error->relative_rmse > 0;
         cells.push_back(both ? number(estimate(s) / row.error->relative_rmse) : "");
+        cells.push_back(number(s.photon_noise));
+        cells.push_back(number(s.sample_noise));
+        cells.push_back(number(kernel_bias(row)));
         table.rows.push_back(std::move(cells));
     }
     return table;
@@ -136,11 +155,11 @@ std::vector<std::string> settings_in(const std::vector<Row>& rows) {
 
 using Reading = std::function<std::optional<double>(const Row&)>;
 std::vector<std::pair<double, double>> points_of(const std::vector<Row>& rows, const std::string& setting,
-                                                 const Reading& read) {
+                                                 const Reading& read, bool over_passes = false) {
     std::vector<std::pair<double, double>> points;
     for (const Row& row : rows)
         if (const auto value = read(row); row.setting == setting && value)
-            points.emplace_back(row.snapshot.cpu_s, *value);
+            points.emplace_back(over_passes ? row.snapshot.passes : row.snapshot.cpu_s, *value);
     return points;
 }
 
@@ -148,7 +167,20 @@ const Reading true_error = [](const Row& r) {
     return r.error ? std::optional(r.error->relative_rmse) : std::nullopt;
 };
 const Reading noise_of = [](const Row& r) { return r.snapshot.noise; };
+const Reading photon_noise_of = [](const Row& r) { return r.snapshot.photon_noise; };
+const Reading sample_noise_of = [](const Row& r) { return r.snapshot.sample_noise; };
 const Reading bias_of = [](const Row& r) { return r.snapshot.bias; };
+
+// Theory: independent samples' mean, and photons' whose width shrinks so that noise and bias fall alike [Knaus and Zwicker
+// 2011]; where light comes by final gathering, whose rays do not shrink, photon noise lies between the two.
+struct Cause {
+    const char* name;
+    Reading read;
+    const char* theory;
+};
+const std::vector<Cause> causes{{"sample noise", sample_noise_of, "-1/2"},
+                                {"photon noise", photon_noise_of, "-1/3 (photons alone) to -1/2 (final gathering)"},
+                                {"kernel bias", kernel_bias, "-1/3"}};
 
 // What the numbers say, in lines.
 std::string conclusions(const std::vector<Row>& rows, const Options& options) {
@@ -160,6 +192,10 @@ std::string conclusions(const std::vector<Row>& rows, const Options& options) {
              {std::pair{"relative error", true_error}, {"estimated noise", noise_of}})
             if (const auto slope = log_slope(points_of(rows, setting, read)))
                 text += fmt::format("{}{} falls with the {:.2f}th power of CPU time\n", name, what, *slope);
+        for (const Cause& cause : causes)
+            if (const auto slope = log_slope(points_of(rows, setting, cause.read, true)))
+                text += fmt::format("{}{} falls with the {:.2f}th power of passes; theory says {}\n", name, cause.name, *slope,
+                                    cause.theory);
         for (const Row& row : rows) {
             const auto error = true_error(row) ? true_error(row) : noise_of(row);
             if (row.setting != setting || !options.error || !error || *error > *options.error) continue;
@@ -188,7 +224,35 @@ Image<Color> difference_picture(const Image<Color>& x, const Reference& referenc
     return picture;
 }
 
-std::string page(const std::string& scene, const std::vector<Row>& rows,
+// The causes against passes, dashed lines with the slopes that theory gives.
+std::string causes_part(const std::vector<Row>& rows, const std::vector<PaintCauses>& paint) {
+    std::vector<PlotLine> lines;
+    for (const std::string& setting : settings_in(rows)) {
+        const std::string name = setting.empty() ? "" : setting + " ";
+        for (const Cause& cause : causes) {
+            const auto points = points_of(rows, setting, cause.read, true);
+            if (!points.empty()) lines.push_back({name + cause.name, points, false});
+        }
+        const auto samples = points_of(rows, setting, sample_noise_of, true);
+        for (const auto& [slope, label] : {std::pair{-0.5, "slope -1/2"}, {-1.0 / 3, "slope -1/3"}})
+            if (samples.size() > 1) {
+                const auto& [x, y] = samples.front();
+                const double end = samples.back().first;
+                lines.push_back({name + label, {samples.front(), {end, y * std::pow(end / x, slope)}}, true});
+            }
+    }
+    std::string html = html_log_plot("Error by cause", "passes", "relative RMSE", lines);
+    if (!html.empty())
+        html += "<p>Photon noise: half the mean square difference from a run with other photons and the same samples; sample "
+                "noise (edges, shadow rays): from one with the same photons and other samples; kernel bias: what the true error "
+                "holds beyond both.</p>";
+    if (paint.empty()) return html;
+    return html + "<h2>Paint by cause</h2>" + html_table(paint_table(paint)) +
+           "<p>For a quarter, one and four times the photons. Field: angle between strokes' axes as interpolated in the picture "
+           "and the field itself at the seen points; map: colours from other photons; ILIC: paths with steps half as long.</p>";
+}
+
+std::string page(const std::string& scene, const std::vector<Row>& rows, const std::vector<PaintCauses>& paint,
                  const std::optional<Reference>& reference, const std::string& conclusion) {
     std::vector<PlotLine> errors, parts;
     for (const std::string& setting : settings_in(rows)) {
@@ -208,6 +272,7 @@ std::string page(const std::string& scene, const std::vector<Row>& rows,
     std::string body = "<p>" + html_text(conclusion) + "</p>";
     body += html_log_plot("Error against time", "CPU seconds", "relative RMSE", errors);
     body += html_log_plot("What the run itself says of its error", "CPU seconds", "relative", parts);
+    body += causes_part(rows, paint);
     body += "<h2>Numbers</h2>" + html_table(as_table(rows)) + "<h2>Pictures</h2>";
     for (const Row& row : rows)
         body += html_picture(row.snapshot.picture,
@@ -231,8 +296,10 @@ std::vector<Row> run_settings(const Scene& scene, const Settings& settings, cons
                               const std::optional<Reference>& reference) {
     std::vector<Row> rows;
     const auto run = [&](const std::string& name, const Settings& changed) {
-        for (Snapshot& s :
-             run_budgets(scene, changed, options.budgets, options.run_budgets, options.progress)) {
+        std::vector<Snapshot> snapshots =
+            run_budgets(scene, changed, options.budgets, options.run_budgets, options.progress);
+        if (options.causes) add_causes(scene, changed, options.budgets, snapshots, options.progress);
+        for (Snapshot& s : snapshots) {
             Row row{name, std::move(s), {}};
             if (reference) row.error = picture_error(row.snapshot.photoreal, *reference, row.snapshot.mask);
             rows.push_back(std::move(row));
@@ -264,9 +331,12 @@ int run_converge(const Options& options) {
             reference = trace_reference(*loaded.scene, settings, options);
         }
         const std::vector<Row> rows = run_settings(*loaded.scene, settings, options, reference);
+        std::vector<PaintCauses> paint;
+        if (options.causes) paint = paint_causes(*loaded.scene, settings);
         const HtmlTable table = as_table(rows);
         const std::string conclusion = conclusions(rows, options);
         print_answer(table_text(table) + conclusion);
+        if (!paint.empty()) print_answer(table_text(paint_table(paint)));
         if (!options.csv.empty()) {
             if (options.csv == "-")
                 print_answer(as_csv(table));
@@ -274,7 +344,7 @@ int run_converge(const Options& options) {
                 write_file_atomically(options.csv, as_csv(table));
         }
         if (!options.html.empty())
-            write_file_atomically(options.html, page(loaded.scene->file, rows, reference, conclusion));
+            write_file_atomically(options.html, page(loaded.scene->file, rows, paint, reference, conclusion));
         return exit_done;
     });
 }

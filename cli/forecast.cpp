@@ -46,8 +46,9 @@ constexpr Law photons_law{1, 0}, kdtree_law{1, 0}, gbuffer_law{0, 0.75}, orient_
 constexpr Law sparse_law{1, 0},
     sparse_records_law{0.4, 0.2}; // source photons' light; the records that it asks for
 constexpr Law render_law{0, 0.85}, render_records_law{0.2, 0};
-// Loading the image library and writing a PNG: s and s a pixel, where the above was measured (2.6 GHz).
-constexpr double write_s = 0.165, write_s_pixel = 3.5e-7;
+// Writing a PNG: s and s a pixel, where the above was measured (2.6 GHz); and keeping what a painted picture is made of for
+// later runs.
+constexpr double write_s = 0.002, write_s_pixel = 2.6e-7, keep_s_pixel = 5e-7;
 
 // ---- the small run
 // ---------------------------------------------------------------------------------------------------
@@ -159,7 +160,7 @@ double seconds_of(const std::string& pass, const Taken& t, const Scale& scale, d
     if (pass == "render")
         return grown(t.render_again, render_law, scale) +
                grown(t.render - t.render_again, render_records_law, scale);
-    return pass == "write" ? write_s + write_s_pixel * pixels : 0;
+    return pass == "write" ? write_s + (write_s_pixel + (t.sparse > 0 ? keep_s_pixel : 0)) * pixels : 0;
 }
 
 // The part of an irradiance field that keeps light at places among the photons (lit_places.h): a record and a
@@ -227,10 +228,11 @@ Sizes foretell_sizes(const Rendering& small, const Scale& scale) {
 }
 
 // What the passes hold, and beside it for a while, in the order in which they come: copies of the photons
-// while they are joined and sorted, a pixel's sums of samples, the image library (112 MB). Fitted to the same
-// scenes.
+// while they are joined and sorted, a pixel's sums of samples, what is kept for later runs as it is written. Fitted
+// to the same scenes.
 void foretell_memory(Forecast& f, const Sizes& s, const Taken& taken) {
     const double pixels = static_cast<double>(f.width) * f.height, painted_pixels = s.sparse > 0 ? pixels : 0;
+    constexpr double photon_bytes = 52, seen_bytes = 2 * 112; // in a file to be; an entry and its file
     double held = f.passes[1].peak_rss_mb * mega, peak = held;
     const auto pass = [&](const char* name, double kept, double brief) {
         held += kept;
@@ -246,7 +248,7 @@ void foretell_memory(Forecast& f, const Sizes& s, const Taken& taken) {
     pass("informative", s.informative, 0);
     pass("ilic", s.layer, 160 * painted_pixels + 60 * s.painted);
     pass("render", s.picture, 270 * pixels);
-    pass("write", 112 * mega, 16 * pixels);
+    pass("write", 0, 16 * pixels + std::max(photon_bytes * s.stored, seen_bytes * painted_pixels));
 }
 
 } // namespace

@@ -207,6 +207,7 @@ void add_render(CLI::App& parent, Options& options, Words& words, std::optional<
         ->type_name("N")
         ->check(CLI::Range(1, 100'000));
     app.add_option("--stats", options.stats, "Write times and counts as JSON")->type_name("FILE");
+    add_render_page(app, options);
     app.add_option("--save-photons", options.save_photons, "Keep the photon map")->type_name("FILE");
     app.add_option("--load-photons", options.load_photons, "Use a kept photon map of the same scene")
         ->type_name("FILE");
@@ -330,6 +331,7 @@ void add_converge(CLI::App& parent, Options& options, Words& words, std::optiona
                    "Trace two references by paths, this long together; 0: the error is estimated alone (default: 0)")
         ->type_name("S")
         ->check(CLI::Range(0.0, 1e6));
+    app.add_flag("--causes", options.causes, "Split the error by cause, by more runs with one cause's random numbers changed");
     app.add_option("--sweep", words.sweep,
                    "Compare values of a setting: photons, gather, radius, shadow, sharp or seed")
         ->type_name("NAME=A,B,...");
@@ -342,8 +344,10 @@ void add_converge(CLI::App& parent, Options& options, Words& words, std::optiona
     add_progress(app, progress);
     app.footer("One progressive run is looked at whenever a budget is used up. Error is measured over the photoreal pixels,\n"
                "against two independent references whose own noise drops out: root mean squares, absolute and relative to\n"
-               "light + a tenth of the mean; the ratio of means; the 99th percentile; the mean distance in Oklab as\n"
-               "displayed, times 100; and beside them what the run itself estimates as its noise and bias.\n\n"
+               "light + a tenth of the mean; the ratio of means; the 99th percentile; FLIP, how different they look, 0 to 1;\n"
+               "and beside them what the run itself estimates as its noise and bias. --causes adds photon noise (a second\n"
+               "run with other photons), sample noise (edges and shadow rays: a third with other samples), kernel bias (what\n"
+               "the true error holds beyond both), and of a painting the errors of field, informative map and ILIC.\n\n"
                "Examples:\n  pnr converge box.pnr -W 256 --reference-time 60 --html box.html\n"
                "  pnr converge box.pnr --budgets 2,4,8 --sweep photons=50000,200000,800000 --error 0.03");
 }

@@ -82,6 +82,7 @@ struct Options {
     std::vector<double> run_budgets; // s, rising
     std::filesystem::path reference; // a picture; empty: path traced
     double reference_s = 0;          // for so long; 0: no reference
+    bool causes = false;             // split the error by cause
     std::string sweep;               // a setting and its values
     std::vector<double> sweep_values;
 };

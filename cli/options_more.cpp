@@ -33,6 +33,10 @@ void add_cache(CLI::App& app, Options& options) {
                           "Use no results of earlier runs and keep none; the picture is the same");
 }
 
+void add_render_page(CLI::App& app, Options& options) {
+    app.add_option("--html", options.html, "Write a page: passes, memory, maps as pictures, error, plan")->type_name("FILE");
+}
+
 void add_fmt(CLI::App& parent, Options& options) {
     CLI::App& app = *parent.add_subcommand("fmt", "Lay scene texts out: indentation, spaces, empty lines");
     app.add_option("FILE", options.scenes, "Scenes and includes, replaced by what comes out; - or none: standard input to output");

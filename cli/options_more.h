@@ -19,6 +19,8 @@ void finish_tev(Options& options, const std::optional<std::string>& place, std::
 // --no-cache, of commands that render.
 void add_cache(CLI::App& app, Options& options);
 
+// --html of `render`.
+void add_render_page(CLI::App& app, Options& options);
 void add_fmt(CLI::App& parent, Options& options);
 void add_init(CLI::App& parent, Options& options);
 void add_lsp(CLI::App& parent, Options& options);

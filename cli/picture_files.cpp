@@ -51,11 +51,7 @@ Metadata describe(const Scene& scene, const Rendering& r, const std::vector<Pass
 }
 
 std::vector<unsigned char> make_png(const Scene& scene, const Rendering& r) {
-    Image<Color> picture = cut(linear_picture(scene, r), r.window);
-    const auto gain = static_cast<float>(std::exp2(r.settings.render.exposure));
-    const bool soft = r.settings.render.view == View::shoulder;
-    for (Color& color : picture.pixels) color = soft ? shoulder(color * gain) : color * gain;
-    return encode_png(picture, {}, {{"Software", fmt::format("pnr {}", version())}});
+    return encode_png(shown_picture(scene, r), {}, {{"Software", fmt::format("pnr {}", version())}});
 }
 
 std::vector<unsigned char> make_exr(const Scene& scene, const Rendering& r,
@@ -81,6 +77,14 @@ void write_bytes(const std::vector<unsigned char>& bytes, const fs::path& output
 }
 
 } // namespace
+
+Image<Color> shown_picture(const Scene& scene, const Rendering& r) {
+    Image<Color> picture = cut(linear_picture(scene, r), r.window);
+    const auto gain = static_cast<float>(std::exp2(r.settings.render.exposure));
+    const bool soft = r.settings.render.view == View::shoulder;
+    for (Color& color : picture.pixels) color = soft ? shoulder(color * gain) : color * gain;
+    return picture;
+}
 
 void check_writable(const fs::path& file) {
     std::error_code ignored;

@@ -15,6 +15,9 @@ void check_writable(const std::filesystem::path& file);
 // The same for a picture, and UsageError for an ending that is neither .png nor .exr. "-" is standard output.
 void check_output(const std::filesystem::path& output);
 
+// The window of the picture as PNG shows it: with exposure and the view's shoulder, linear, not yet clipped.
+Image<Color> shown_picture(const Scene& scene, const Rendering& r);
+
 // Throws FileError. Of a rendering that has no picture yet nothing is written.
 void write_picture(const Scene& scene, const Rendering& r, const std::vector<std::string>& aovs,
                    const std::vector<PassTime>& times, const std::filesystem::path& output);

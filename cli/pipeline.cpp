@@ -7,6 +7,7 @@
 #include "core/irradiance_field.h"
 #include "core/near_limits.h"
 #include "core/trace_photons.h"
+#include "npr/hidden_sources.h"
 
 #include <fmt/format.h>
 
@@ -106,8 +107,13 @@ PaintResult paint(const Rendering& r, Passes& passes, std::optional<SparseMap> s
         return make_informative_map(p.sparse, r.world, r.gbuffer, seed, progress);
     });
     if (!strokes) return p;
+    std::optional<InformativeMap> shown; // where it is not the map that the files show
+    if (const auto sparse = without_hidden(p.sparse, r.world, r.gbuffer, r.photons))
+        shown = passes.run("informative", [&](const Progress& progress) {
+            return make_informative_map(*sparse, r.world, r.gbuffer, seed, progress);
+        });
     p.layer = passes.run("ilic", [&](const Progress& progress) {
-        return convolve(p.informative, find_seats(r.world, r.gbuffer, r.photons), r.world, r.gbuffer, seed, progress);
+        return convolve(shown ? *shown : p.informative, find_seats(r.world, r.gbuffer, r.photons), r.world, r.gbuffer, seed, progress);
     });
     return p;
 }
@@ -238,9 +244,8 @@ void add_band(RenderResult& all, const RenderResult& band, const PixelRect& rows
     copy_rows(all.parts.caustic, band.parts.caustic, rows);
     copy_rows(all.parts.specular, band.parts.specular, rows);
     copy_rows(all.parts.photon_density, band.parts.photon_density, rows);
-    all.faults.nan += band.faults.nan;
-    all.faults.inf += band.faults.inf;
-    all.faults.negative += band.faults.negative;
+    all.faults += band.faults;
+    merge_faults(all.fault_places, band.fault_places);
     all.camera_rays += band.camera_rays;
     all.gathers += band.gathers;
     all.stopped = band.stopped;

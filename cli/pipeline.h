@@ -44,6 +44,8 @@ struct Wishes {
     Budgets budgets; // pixels and photons
     // Called after each progressive pass, whose means are in r.rendered; false ends the run.
     std::function<bool(struct Rendering&)> after_pass;
+    // Of progressive passes: camera samples and shadow rays drawn as of this seed, whatever the photons' is.
+    std::optional<std::uint64_t> sample_seed;
     // Called with World::notes, once that is built.
     std::function<void(const std::vector<std::string>&)> before_passes;
     // Called with each part that is there; light comes in bands of rows, or in passes of the whole.

@@ -69,11 +69,14 @@ void refine(Rendering& r, const Wishes& wishes, Passes& passes) {
         const ProgressiveStep step =
             progressive_step(pass, r.world.illumination, r.settings.render.integrator, large);
         const Settings settings = settings_of(step, r.settings);
+        Settings drawn = r.settings;
+        if (wishes.sample_seed) drawn.render.seed = *wishes.sample_seed;
+        drawn = settings_of(step, drawn);
         RenderResult result;
         try {
             prepare_pass(r, step, settings, pass, map, passes);
             result = passes.run("render", [&](const Progress& progress) {
-                return render(r.world, r.gbuffer, *map.now, settings, r.window, wishes.light_parts, progress,
+                return render(r.world, r.gbuffer, *map.now, drawn, r.window, wishes.light_parts, progress,
                               samples_of(step, r.progressive));
             });
         } catch (const Interrupted&) {

@@ -9,6 +9,7 @@
 #include "cli/parts.h"
 #include "cli/picture_files.h"
 #include "cli/pipeline.h"
+#include "cli/render_page.h"
 #include "cli/report.h"
 #include "cli/stats.h"
 #include "cli/tev_view.h"
@@ -28,15 +29,16 @@ namespace fs = std::filesystem;
 // What one frame writes; empty paths: not asked for.
 struct Files {
     std::vector<fs::path> pictures;
-    fs::path maps, stats;
+    fs::path maps, stats, html;
 };
 
 Files files_of(const Options& options, const AnimationFrame& frame) {
-    Files files{options.outputs, options.maps, options.stats};
+    Files files{options.outputs, options.maps, options.stats, options.html};
     if (files.pictures.empty()) files.pictures = {scene_stem(scene_name(options)) + ".png"};
     if (!options.frames) return files;
     for (fs::path& picture : files.pictures) picture = numbered(picture, frame.number);
     if (!files.maps.empty()) files.maps = numbered(files.maps, frame.number);
+    if (!files.html.empty()) files.html = numbered(files.html, frame.number);
     if (!files.stats.empty() && files.stats != "-") files.stats = numbered(files.stats, frame.number);
     return files;
 }
@@ -67,6 +69,9 @@ void write_results(const LoadResult& loaded, const Rendering& r, const Options& 
             for (const fs::path& picture : files.pictures)
                 write_picture(*loaded.scene, r, options.aovs, passes.times(), picture);
             if (!files.maps.empty()) write_maps(r, files.maps);
+            if (!files.html.empty())
+                write_file_atomically(files.html,
+                                      render_page(*loaded.scene, r, passes.times(), all_warnings(loaded, r)));
         });
     });
     if (files.stats.empty()) return;
@@ -105,7 +110,7 @@ int render_frame(const Options& options, const AnimationFrame& frame, Reuse& reu
     const Files files = files_of(options, frame);
     const auto& pictures = files.pictures;
     for (const fs::path& picture : pictures) check_output(picture);
-    for (const fs::path& file : {files.stats, options.save_photons})
+    for (const fs::path& file : {files.stats, files.html, options.save_photons})
         if (!file.empty() && file != "-") check_writable(file);
     if (options.skip_existing && std::all_of(pictures.begin(), pictures.end(), exists)) return exit_done;
     if (options.no_overwrite && std::any_of(pictures.begin(), pictures.end(), exists))

@@ -42,6 +42,10 @@ Hasher base_hash(const SceneIdentity& scene, const World& world) {
     return hash;
 }
 
+// Whoever adds a setting asks here whether results hang on it: then it belongs into the keys.
+static_assert(sizeof(PhotonSettings) == 40 && sizeof(RenderSettings) == 128 && sizeof(RadiositySettings) == 48,
+              "a new setting?");
+
 void add_photon_settings(Hasher& hash, const PhotonSettings& s) {
     hash.add(std::uint64_t{s.wanted});
     hash.add(std::uint64_t{s.global ? 1u + *s.global : 0u});

@@ -2,6 +2,7 @@
 // `pnr watch`: renders again whenever the scene is saved, with just the passes that the change needs.
 #include "cli/commands.h"
 
+#include "cli/faults.h"
 #include "cli/interrupt.h"
 #include "cli/load.h"
 #include "cli/map_files.h"
@@ -103,6 +104,7 @@ void paint_once(const Options& options, const std::vector<fs::path>& pictures, L
     }();
     if (!r.stopped) {
         const std::string why = what_changed(last, reuse.keys, r.plan.paint);
+        for (const std::string& line : fault_warnings(r)) print_warning(line);
         write_outputs(*loaded.scene, r, options, pictures, passes);
         print_note(fmt::format("{} after {:.2f} s; {}: {}", pictures.front().string(),
                                Passes::elapsed() - began, why, one_line(passes_to_run(r, wishes))));

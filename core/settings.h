@@ -79,6 +79,7 @@ struct RenderSettings {
 // -r and r^3. In space r is itself the biharmonic function [Carr et al. 2001], so the word `linear` means
 // biharmonic too.
 enum class RbfKernel { biharmonic, triharmonic };
+enum class SeedDistance { straight, geodesic }; // geodesic: along the surface, on meshes
 enum class FieldSource { seeds, curvature_min, curvature_max, along, around, light, gradient };
 enum class Fill { nearest, random };
 
@@ -110,6 +111,7 @@ struct PaintLayer {
 struct PaintStyle {
     std::vector<Seed> seeds;
     RbfKernel kernel = RbfKernel::biharmonic;
+    SeedDistance distance = SeedDistance::straight;
     double smooth = 0;  // added to the RBF matrix' diagonal, relative to its mean off-diagonal entry
     int neighbours = 0; // 0: all seeds; n: the n nearest
     FieldSource field = FieldSource::seeds; // without seeds: curvature_min

@@ -14,15 +14,15 @@ namespace {
 constexpr float largest_step = 3;     // off the tangent planes, in pixels' widths
 constexpr float sharpest_turn = 0.5f; // cosine between the normals
 
-bool is_fold(const Seen& a, const Seen& b, float pixel) {
-    const Vec3f way = b.position - a.position;
-    // A surface that bends away slowly leaves one of the two planes by little.
-    if (std::min(std::abs(glm::dot(way, a.normal)), std::abs(glm::dot(way, b.normal))) > largest_step * pixel)
-        return true;
-    return glm::dot(a.normal, b.normal) < sharpest_turn;
-}
-
 } // namespace
+
+bool is_fold(Vec3f a, Vec3f normal_a, Vec3f b, Vec3f normal_b, float pixel) {
+    const Vec3f way = b - a;
+    // A surface that bends away slowly leaves one of the two planes by little.
+    if (std::min(std::abs(glm::dot(way, normal_a)), std::abs(glm::dot(way, normal_b))) > largest_step * pixel)
+        return true;
+    return glm::dot(normal_a, normal_b) < sharpest_turn;
+}
 
 Folds find_folds(const GBuffer& gbuffer) {
     Folds folds;
@@ -45,7 +45,7 @@ Folds find_folds(const GBuffer& gbuffer) {
                             continue;
                         // The larger of the two pixels, so that both sides say the same.
                         const float wider = std::max(pixel, footprint_of(other).least);
-                        if (is_fold(seen, other, wider)) walls |= wall_bit(i, j);
+                        if (is_fold(seen.position, seen.normal, other.position, other.normal, wider)) walls |= wall_bit(i, j);
                     }
                 }
                 folds.walls.at(x, y) = walls;

@@ -17,6 +17,11 @@ struct Folds {
 };
 Folds find_folds(const GBuffer& gbuffer);
 
+// Whether a fold lies between two points of one surface, with their unit normals, that are seen a pixel or so
+// apart; `pixel`: the width of a pixel there, facing the viewer. Each must lie off the other's tangent plane by
+// more than three such widths, or the normals be more than 60 degrees apart.
+bool is_fold(Vec3f a, Vec3f normal_a, Vec3f b, Vec3f normal_b, float pixel);
+
 // The bit of a step of -1, 0 or 1 each way, not both 0.
 inline std::uint8_t wall_bit(int dx, int dy) {
     constexpr std::uint8_t bits[9] = {1u << 5, 1u << 6, 1u << 7, 1u << 4, 0,

@@ -3,6 +3,7 @@
 
 #include "core/closest_point.h"
 #include "npr/field_sources.h"
+#include "npr/geodesic_field.h"
 #include "npr/rbf.h"
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@ struct OrientationField {
     std::vector<SnappedSeed> seeds;
     std::vector<double> values; // [seed][component]
     Rbf rbf;                    // over all seeds, when neighbours is 0
+    std::shared_ptr<const GeodesicField> geodesic; // goes before the others where it has a value
     AxisSource axis_source;
 };
 
@@ -187,6 +189,14 @@ void measure_residual(const OrientationField& field, FieldReport& report) {
     }
 }
 
+void add_geodesic(const World& world, int object, OrientationField& field, FieldReport& report) {
+    field.geodesic = make_geodesic_field(world, object, seed_positions(field), field.values,
+                                         component_count(field.style), field.style.smooth);
+    if (!field.geodesic)
+        report.notes.push_back(
+            "rbf: `distance geodesic` goes along meshes alone, and this is none: the seeds' distances are straight");
+}
+
 std::shared_ptr<OrientationField> make_field(const World& world, int object, FieldReport& report) {
     auto field = std::make_shared<OrientationField>();
     field->style = world.objects[static_cast<std::size_t>(object)].paint;
@@ -205,6 +215,8 @@ std::shared_ptr<OrientationField> make_field(const World& world, int object, Fie
                                field->style.kernel, field->style.smooth);
         report.condition = field->rbf.condition;
     }
+    if (field->share < 1 && !field->seeds.empty() && field->style.distance == SeedDistance::geodesic)
+        add_geodesic(world, object, *field, report);
     measure_residual(*field, report);
     if (report.residual > 1e-3 && field->style.smooth == 0)
         report.notes.push_back(
@@ -233,6 +245,8 @@ Vec3 eval_orientation(const OrientationField& field, Vec3 position, Vec3 normal)
     std::array<double, tensor_size> storage{};
     const std::span<double> value(storage.data(), static_cast<std::size_t>(component_count(field.style)));
     if (field.seeds.empty() || field.share >= 1) return blend(field, position, normal, {});
+    if (field.geodesic && eval_geodesic_field(*field.geodesic, position, value))
+        return blend(field, position, normal, value);
     if (field.style.neighbours > 0)
         eval_from_seeds(field,
                         nearest_seeds(field, position, static_cast<std::size_t>(field.style.neighbours)),
@@ -303,7 +317,7 @@ std::vector<Vec3f> orient_photons(const World& world, const PhotonMap& map, cons
     std::vector<std::unique_ptr<LocalRule>> local(fields.fields.size());
     for (std::size_t object = 0; object < fields.fields.size(); ++object) {
         const auto& field = fields.fields[object];
-        if (field && world.objects[object].paint.paper_mode && field->seeds.size() >= 2)
+        if (field && world.objects[object].paint.paper_mode && field->seeds.size() >= 2 && !field->geodesic)
             local[object] =
                 std::make_unique<LocalRule>(make_local_rule(map, *field, static_cast<int>(object)));
     }

@@ -2,6 +2,7 @@
 #include "npr/seats.h"
 
 #include "core/rng.h"
+#include "npr/hidden_sources.h"
 #include "npr/point_buckets.h"
 #include "npr/seen_photons.h"
 
@@ -29,6 +30,7 @@ Seats find_seats(const World& world, const GBuffer& gbuffer, const PhotonMap& ma
     for (const auto& chunk : see_photons(world, gbuffer, map)) {
         for (const SeenPhoton& seen : chunk) {
             const Seen& pixel = gbuffer.seen.at(seen.x, seen.y);
+            if (is_hidden(pixel, map.photons[seen.photon].position, map.normals[seen.photon])) continue;
             seats.seen.push_back(
                 {seen.at, map.photons[seen.photon].position, numbers[seen.photon], pixel.object, pixel.via});
         }

@@ -69,6 +69,14 @@ struct Path {
     bool going = true;
 };
 
+// Of the rules the midpoint's is kept. A field that is read from the pixel around a place has steps, and they
+// leave higher orders nothing to win: ends of paths 20 pixels long are off by, on circles, a saddle and waves of
+// 50 pixels (bench_ilic --steps; root mean square, pixels, and places read), 0.020, 0.023, 0.15 by steps of 0.5
+// (80 places); by Runge and Kutta's fourth order 0.027, 0.024, 0.17 in steps of 1 (80); by Euler's 0.107, 0.078,
+// 0.36 (40); by Bogacki and Shampine's adaptive pair, tolerance 0.01 a step, 0.035, 0.033, 0.17 (23, 22, 79),
+// but each step must read a cell beside, so that long ones save nothing. Blended between four pixels, at four
+// times the reads, the same steps are off by 0.0001, 0.0003, 0.028.
+//
 // One step by the midpoint rule: calls sample(before, stretch, cell) with the cell at a place inside it,
 // `share` in [0, 1) of its way along. `before`: the way up to that place. The path stops where it leaves the
 // region, comes to a fold or has come `whole` steps of the brush.

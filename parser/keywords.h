@@ -89,12 +89,12 @@ inline constexpr auto reserved_words = std::to_array<std::string_view>({
 inline constexpr auto free_words = std::to_array<std::string_view>({
     "absorption_probability", "along", "around", "atan2d", "axis", "bare", "biharmonic", "blur", "cell",
     "clip", "clock_delta", "contrast", "curvature_max", "curvature_min", "edge", "emitter", "field", "file",
-    "fill", "final_clock", "final_frame", "folds", "frame_number", "gaussian", "global", "h_angle", "height",
-    "hemisphere", "ilic", "image_height", "image_width", "initial_clock", "initial_frame", "input_file_name",
+    "fill", "final_clock", "final_frame", "folds", "frame_number", "gaussian", "geodesic", "global", "h_angle",
+    "height", "hemisphere", "ilic", "image_height", "image_width", "initial_clock", "initial_frame", "input_file_name",
     "interpolation", "kernel", "layer", "length", "light", "linear", "mix", "nearest", "neighbours", "noise",
     "npr", "opacity", "paper_mode", "power", "radiance", "ramp", "random", "rbf", "rectangle", "relief",
-    "repair", "saturation", "seeds", "shoulder", "simplify", "specular_probability", "step", "style",
-    "subdivide", "tau", "tone", "triharmonic", "v_angle", "view", "warm", "weight",
+    "repair", "saturation", "seeds", "shoulder", "simplify", "specular_probability", "step", "straight",
+    "style", "subdivide", "tau", "tone", "triharmonic", "v_angle", "view", "warm", "weight",
 });
 // clang-format on
 

@@ -59,18 +59,27 @@ RbfKernel parse_kernel(Parser& p) {
     unexpected(p, "kernel", {"biharmonic"_kw, "triharmonic"_kw, "linear"_kw});
 }
 
+SeedDistance parse_distance(Parser& p) {
+    if (accept(p, "straight"_kw)) return SeedDistance::straight;
+    if (accept(p, "geodesic"_kw)) return SeedDistance::geodesic;
+    unexpected(p, "distance", {"straight"_kw, "geodesic"_kw});
+}
+
 void parse_rbf(Parser& p, PaintWord& word) {
     block(p, "rbf", [&] {
         if (accept(p, "kernel"_kw)) {
             const RbfKernel kernel = parse_kernel(p);
             word.said.emplace_back([kernel](PaintStyle& style) { style.kernel = kernel; });
+        } else if (accept(p, "distance"_kw)) {
+            const SeedDistance distance = parse_distance(p);
+            word.said.emplace_back([distance](PaintStyle& style) { style.distance = distance; });
         } else if (accept(p, "smooth"_kw)) {
             say(word, &PaintStyle::smooth, parse_float_in(p, 0, 1e6, "`smooth`"));
         } else if (accept(p, "neighbours"_kw)) {
             const int n = parse_int(p, 0, 1000000, "`neighbours`");
             word.said.emplace_back([n](PaintStyle& style) { style.neighbours = n; });
         } else
-            unexpected(p, "rbf", {"kernel"_kw, "smooth"_kw, "neighbours"_kw});
+            unexpected(p, "rbf", {"kernel"_kw, "distance"_kw, "smooth"_kw, "neighbours"_kw});
     });
 }
 

@@ -2,6 +2,7 @@
 #include "cli/converge.h"
 
 #include "core/rng.h"
+#include "parser/load_scene.h"
 #include "run_pnr.h"
 
 #include <gtest/gtest.h>
@@ -41,7 +42,8 @@ TEST(PictureError, OfABiasedPicture) {
     EXPECT_NEAR(error.relative_rmse, 0.2 / std::sqrt(4 + 0.04), 1e-6);
     EXPECT_NEAR(error.mean_ratio, 1.1, 1e-6);
     EXPECT_NEAR(error.relative_99, 0.2 / 2.2, 1e-6);
-    EXPECT_NEAR(picture_error(truth, {truth, truth}, everything).perceived, 0, 1e-9);
+    EXPECT_EQ(picture_error(truth, {truth, truth}, everything).flip, 0);
+    EXPECT_EQ(error.flip, 0) << "both are shown as white";
 }
 
 TEST(PictureError, LooksAtTheMaskAlone) {
@@ -69,14 +71,82 @@ TEST(Converge, PrintsATableAndWritesAPage) {
     const TemporaryFolder folder;
     folder.write("s.pnr", box_scene());
     const Ran ran = run_pnr(folder, {"converge", "s.pnr", "--size", "32x32", "--budgets", "0.2,0.6,1.2",
-                                     "--reference-time", "1", "--csv", "t.csv", "--html", "page.html",
+                                     "--reference-time", "1", "--causes", "--csv", "t.csv", "--html", "page.html",
                                      "--progress", "off"});
     EXPECT_EQ(ran.code, 0) << ran.err;
     EXPECT_NE(ran.out.find("relative_rmse"), std::string::npos);
     EXPECT_TRUE(folder.read("t.csv").starts_with("setting,budget_s,wall_s,cpu_s"));
+    EXPECT_NE(ran.out.find("field_degrees"), std::string::npos);
     const std::string page = folder.read("page.html");
     EXPECT_NE(page.find("data:image/png;base64,"), std::string::npos);
     EXPECT_EQ(page.find("http"), std::string::npos);
+}
+
+Settings small_settings(const LoadResult& loaded, std::uint64_t seed) {
+    Settings settings = loaded.settings;
+    settings.render.width = settings.render.height = 40;
+    settings.render.seed = seed;
+    settings.photons.count = 20'000;
+    return settings;
+}
+
+// Variances of independent causes add up to that of the whole, which two independent runs tell.
+TEST(Converge, CausesAddUp) {
+    std::string text = box_scene();
+    const std::size_t paint = text.find("npr {"), end = text.find("} } } }", paint) + 5;
+    text.erase(paint, end - paint); // painted borders are other pixels with other seeds
+    const LoadResult loaded = load_scene_text(text, "s.pnr", {});
+    ASSERT_TRUE(loaded.scene);
+    std::vector<Snapshot> run =
+        run_budgets(*loaded.scene, small_settings(loaded, 1), {}, {0.8}, ProgressMode::off);
+    add_causes(*loaded.scene, small_settings(loaded, 1), {}, run, ProgressMode::off);
+    ASSERT_TRUE(run[0].photon_noise && run[0].sample_noise);
+    EXPECT_GT(*run[0].photon_noise, 0);
+    EXPECT_GT(*run[0].sample_noise, 0);
+    Wishes wishes;
+    wishes.refinement = Refinement{{}, {}, run[0].passes};
+    Reuse kept;
+    Passes passes(ProgressMode::off, false);
+    const Rendering other = render_scene(*loaded.scene, small_settings(loaded, 2), wishes, kept, passes);
+    Image<Color> middle = other.rendered.layer.color;
+    for (std::size_t i = 0; i < middle.pixels.size(); ++i)
+        middle.pixels[i] = 0.5f * (middle.pixels[i] + run[0].photoreal.pixels[i]);
+    const double half = picture_error(run[0].photoreal, {middle, middle}, run[0].mask).relative_rmse;
+    const double parts = *run[0].photon_noise * *run[0].photon_noise + *run[0].sample_noise * *run[0].sample_noise;
+    EXPECT_NEAR(parts / (2 * half * half), 1, 0.3);
+}
+
+// The same seeds give the same bits, so that nothing but the cause that is changed changes.
+TEST(Converge, SamplesOfTheSameSeedAreTheSame) {
+    const LoadResult loaded = load_scene_text(box_scene(), "s.pnr", {});
+    Wishes wishes;
+    wishes.refinement = Refinement{{}, {}, 5};
+    const auto picture = [&] {
+        Reuse kept;
+        Passes passes(ProgressMode::off, false);
+        return render_scene(*loaded.scene, small_settings(loaded, 3), wishes, kept, passes).picture.color.pixels;
+    };
+    const auto plain = picture();
+    wishes.sample_seed = 3;
+    EXPECT_EQ(picture(), plain);
+    wishes.sample_seed = 4;
+    EXPECT_NE(picture(), plain);
+}
+
+// More photons lie nearer to each pixel: its axis and colour come from less far.
+TEST(Converge, PaintsMapsGetBetterWithPhotons) {
+    const LoadResult loaded = load_scene_text(box_scene(), "s.pnr", {});
+    Settings settings = small_settings(loaded, 1);
+    settings.render.width = settings.render.height = 96;
+    const std::vector<PaintCauses> causes = paint_causes(*loaded.scene, settings);
+    ASSERT_EQ(causes.size(), 3u);
+    EXPECT_LT(causes[2].field, 0.8 * causes[0].field);
+    EXPECT_LT(causes[2].map, causes[0].map);
+    for (const PaintCauses& c : causes) {
+        EXPECT_GT(c.field, 0);
+        EXPECT_GT(c.ilic, 0);
+        EXPECT_LT(c.ilic, 0.1);
+    }
 }
 
 TEST(Converge, ComparesSettings) {

@@ -34,8 +34,8 @@ Rendering rendered(const LoadResult& loaded, bool prune) {
     settings.photons.spacing = 0;
     settings.render.prune = prune;
     Passes passes(ProgressMode::off, false);
-    KeptPhotons kept;
-    return render_scene(*loaded.scene, settings, {}, kept, 0, passes);
+    Reuse none;
+    return render_scene(*loaded.scene, settings, {}, none, passes);
 }
 
 // In a channel; infinite where one holds what is no number.

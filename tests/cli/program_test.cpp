@@ -49,10 +49,11 @@ TEST(Program, CommandsWithoutPicturesDoNotNeedTheImageModule) {
     EXPECT_EQ(run_pnr(folder, {"help"}, nowhere).code, 0);
     EXPECT_EQ(run_pnr(folder, {"check", "a.pnr"}, nowhere).code, 0);
     EXPECT_EQ(run_pnr(folder, {"plan", "a.pnr"}, nowhere).code, 0);
-    const Ran render = run_pnr(folder, {"render", "a.pnr", "-W", "8"}, nowhere);
-    EXPECT_EQ(render.code, 4);
-    EXPECT_NE(render.err.find("/nowhere/libpnr_image.so"), std::string::npos);
+    const Ran exr = run_pnr(folder, {"render", "a.pnr", "-W", "8", "-o", "a.exr"}, nowhere);
+    EXPECT_EQ(exr.code, 4);
+    EXPECT_NE(exr.err.find("/nowhere/libpnr_image.so"), std::string::npos);
     EXPECT_EQ(folder.names(), Words{"a.pnr"});
+    EXPECT_EQ(run_pnr(folder, {"render", "a.pnr", "-W", "8", "-o", "a.png"}, nowhere).code, 0); // PNG is our own
 }
 
 TEST(Program, ExitCodesTellWhoIsToBlame) {

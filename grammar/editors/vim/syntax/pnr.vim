@@ -31,7 +31,7 @@ syntax keyword pnrItem deprecated df3 diffuse direction dispersion dispersion_sa
 syntax keyword pnrItem eccentricity edge emission error_bound evaluate expand_thresholds exponent exr exterior extinction
 syntax keyword pnrItem facets fade_color fade_distance fade_power falloff falloff_angle field file fill final_clock
 syntax keyword pnrItem final_frame fisheye flatness flip focal_point fog_alt fog_offset fog_type folds form frame_number
-syntax keyword pnrItem frequency fresnel function gamma gather gaussian gif global global_lights gradient granite
+syntax keyword pnrItem frequency fresnel function gamma gather gaussian geodesic gif global global_lights gradient granite
 syntax keyword pnrItem gray_threshold h_angle hdr height hemisphere hexagon hf_gray_16 hierarchy hollow hypercomplex iff
 syntax keyword pnrItem image_height image_width importance initial_clock initial_frame input_file_name inside_vector
 syntax keyword pnrItem internal interpolate intervals inverse ior irid_wavelength jitter jpeg julia kernel lambda length
@@ -48,9 +48,9 @@ syntax keyword pnrItem random ratio reciprocal rectangle recursion_limit reflect
 syntax keyword pnrItem repeat right ripples rotate roughness samples saturation save_file scale scallop_wave scattering
 syntax keyword pnrItem shadowless shoulder simplify sine_wave sint16be sint16le sint32be sint32le sint8 size sky slice
 syntax keyword pnrItem slope smooth solid spacing specular specular_probability spherical spiral1 spiral2 split_union
-syntax keyword pnrItem spotlight spotted sqr square step strength sturm style subdivide subsurface sys target tga thickness
-syntax keyword pnrItem threshold tiff tightness tile2 tiling tolerance toroidal translate translucency triangle_wave
-syntax keyword pnrItem triangular triharmonic ttf turb_depth turbulence type u_steps uint16be uint16le uint8
+syntax keyword pnrItem spotlight spotted sqr square step straight strength sturm style subdivide subsurface sys target tga
+syntax keyword pnrItem thickness threshold tiff tightness tile2 tiling tolerance toroidal translate translucency
+syntax keyword pnrItem triangle_wave triangular triharmonic ttf turb_depth turbulence type u_steps uint16be uint16le uint8
 syntax keyword pnrItem ultra_wide_angle up use_alpha use_color use_index utf8 uv_indices uv_mapping uv_vectors v_angle
 syntax keyword pnrItem v_steps variance vertex_vectors view warm water_level waves weight width wood wrinkles xyz
 syntax match pnrDirective "#\s*\%(break\|case\|debug\|declare\|default\|else\|elseif\|end\|error\|fclose\|fopen\|for\|if\|ifdef\|ifndef\|include\|local\|macro\|range\|read\|render\|statistics\|switch\|undef\|version\|warning\|while\|write\)\>"
