@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a coat of paint costs: one layer of strokes over a whole square picture, along a known field of swirls.
+// What a coat of paint costs: one layer of strokes over a whole square picture, along a known field of
+// swirls.
 //
 // bench_ilic [--sizes N,N,...] [--lengths L,L,...]
 //   --sizes: pixels a side; --lengths: of the strokes, in pixels of a picture 512 high, as in scenes
-// Prints a row a size and length: seconds on the wall, of processor time, and processor time in nanoseconds for each pixel
-// and each pixel of the strokes' length in this picture. The least of three runs (one from 2048 pixels on).
+// Prints a row a size and length: seconds on the wall, of processor time, and processor time in nanoseconds
+// for each pixel and each pixel of the strokes' length in this picture. The least of three runs (one from
+// 2048 pixels on).
 
 #include "npr/paint.h"
 
@@ -73,9 +75,10 @@ Cost measure(const GBuffer& gbuffer, const InformativeMap& map, double length, i
         const auto start = std::chrono::steady_clock::now();
         const std::clock_t before = std::clock();
         const Layer layer = convolve(map, Seats{}, world, gbuffer, 1);
-        cost.processor = std::min(cost.processor, static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
-        cost.wall = std::min(
-            cost.wall, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        cost.processor =
+            std::min(cost.processor, static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
+        cost.wall = std::min(cost.wall,
+                             std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     }
     return cost;
 }
