@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "npr/brush_scale.h"
 
+#include "core/parallel.h"
 #include "npr/footprint.h"
 
 namespace pnr {
@@ -27,24 +28,33 @@ float distance_to_middle(const GBuffer& gbuffer, const std::vector<Vec3f>& photo
 BrushScale find_brush_scale(const GBuffer& gbuffer, const Seats& seats, const Region& region,
                             const Image<std::uint8_t>& mask) {
     const bool middle = has_middle(gbuffer, seats, region);
-    std::vector<float> widths;
     const PixelRect box = region.box;
-    for (int y = box.y0; y < box.y1; ++y) {
-        for (int x = box.x0; x < box.x1; ++x) {
-            if (mask.at(x - box.x0, y - box.y0) == 0) continue;
-            const Seen& seen = gbuffer.seen.at(x, y);
-            const float width = footprint_of(seen).least / (middle ? seen.z : 1);
+    BrushScale scale;
+    scale.spans = Image<float>(mask.width, mask.height, 0.0f);
+    parallel_for(mask.height, 16, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
+            for (int x = 0; x < mask.width; ++x)
+                if (mask.at(x, y) != 0)
+                    scale.spans.at(x, y) = footprint_of(gbuffer.seen.at(box.x0 + x, box.y0 + y)).least;
+    });
+    std::vector<float> widths;
+    for (int y = 0; y < mask.height; ++y) {
+        for (int x = 0; x < mask.width; ++x) {
+            if (mask.at(x, y) == 0) continue;
+            const float width =
+                scale.spans.at(x, y) / (middle ? gbuffer.seen.at(box.x0 + x, box.y0 + y).z : 1);
             if (width > 0 && std::isfinite(width)) widths.push_back(width);
         }
     }
-    if (widths.empty()) return {};
+    if (widths.empty()) return scale;
     const auto half = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
     std::nth_element(widths.begin(), half, widths.end());
-    return {middle ? *half * distance_to_middle(gbuffer, seats.photons[region.object]) : *half};
+    scale.usual = middle ? *half * distance_to_middle(gbuffer, seats.photons[region.object]) : *half;
+    return scale;
 }
 
-float brush_pixel(const BrushScale& scale, const Seen& seen) {
-    const float pixel = footprint_of(seen).least;
+float brush_pixel(const BrushScale& scale, int x, int y) {
+    const float pixel = scale.spans.at(x, y);
     if (!(pixel > 0) || !std::isfinite(pixel)) return scale.usual;
     return std::clamp(scale.usual, pixel / give, pixel * give);
 }

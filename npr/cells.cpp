@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "npr/cells.h"
 
+#include "core/parallel.h"
 #include "core/rng.h"
 #include "npr/footprint.h"
 #include "npr/point_buckets.h"
@@ -30,8 +31,12 @@ struct Candidate {
     float distance;
 };
 
-float least_distance(const CellPlan& plan, const Seen& seen) {
-    return static_cast<float>(thinning * plan.cell) * brush_pixel(plan.scale, seen);
+float brush_at(const CellPlan& plan, int x, int y) {
+    return brush_pixel(plan.scale, x - plan.region.box.x0, y - plan.region.box.y0);
+}
+
+float least_distance(const CellPlan& plan, int x, int y) {
+    return static_cast<float>(thinning * plan.cell) * brush_at(plan, x, y);
 }
 
 constexpr float growing = 0.25f; // a cell that has just found room grows over so much more of it
@@ -48,7 +53,7 @@ std::vector<Candidate> seat_photons(const CellPlan& plan, std::uint64_t key) {
         if (seat.object != plan.region.object || seat.via != plan.region.via) continue;
         const int x = static_cast<int>(seat.at.x), y = static_cast<int>(seat.at.y);
         if (!box.contains(x, y) || plan.mask.at(x - box.x0, y - box.y0) == 0) continue;
-        const float distance = least_distance(plan, plan.gbuffer.seen.at(x, y));
+        const float distance = least_distance(plan, x, y);
         seated.push_back({make_site(seat.at, seat.position, hash_place(key, seat.position)), distance});
         numbers.push_back(seat.number);
         finest = std::min(finest, distance);
@@ -72,7 +77,7 @@ std::vector<Candidate> seat_photons(const CellPlan& plan, std::uint64_t key) {
 void add_lattice_points(const CellPlan& plan, std::uint64_t key, int x, int y,
                         std::vector<Candidate>& found) {
     const Seen& seen = plan.gbuffer.seen.at(x, y);
-    const int level = std::ilogb(static_cast<float>(plan.cell) * brush_pixel(plan.scale, seen));
+    const int level = std::ilogb(static_cast<float>(plan.cell) * brush_at(plan, x, y));
     const float side = std::ldexp(1.0f, level);
     const Vec3f reach = 0.5f * (glm::abs(seen.dpdx) + glm::abs(seen.dpdy));
     const glm::ivec3 first(glm::floor((seen.position - reach) / side)),
@@ -93,18 +98,26 @@ void add_lattice_points(const CellPlan& plan, std::uint64_t key, int x, int y,
                 const Vec3f foot = seen.position + along;
                 if (glm::floor(foot / side) != corner) continue;
                 CellSite site = make_site(Vec2f(Vec2(x + 0.5, y + 0.5) + *steps), foot, hash);
-                const float distance = least_distance(plan, seen);
+                const float distance = least_distance(plan, x, y);
                 site.radius2 = distance * distance;
                 found.push_back({site, distance});
             }
 }
 
-template <class Body>
-void for_each_pixel(const CellPlan& plan, Body&& body) {
+std::vector<Candidate> find_lattice_points(const CellPlan& plan, std::uint64_t key) {
     const PixelRect box = plan.region.box;
-    for (int y = box.y0; y < box.y1; ++y)
-        for (int x = box.x0; x < box.x1; ++x)
-            if (plan.mask.at(x - box.x0, y - box.y0) != 0) body(x, y);
+    constexpr std::int64_t grain = 16;
+    std::vector<std::vector<Candidate>> chunks(
+        static_cast<std::size_t>((box.y1 - box.y0 + grain - 1) / grain));
+    parallel_for(box.y1 - box.y0, grain, [&](std::int64_t begin, std::int64_t end, std::int64_t chunk) {
+        for (int y = box.y0 + static_cast<int>(begin); y < box.y0 + static_cast<int>(end); ++y)
+            for (int x = box.x0; x < box.x1; ++x)
+                if (plan.mask.at(x - box.x0, y - box.y0) != 0)
+                    add_lattice_points(plan, key, x, y, chunks[static_cast<std::size_t>(chunk)]);
+    });
+    std::vector<Candidate> found;
+    for (const auto& chunk : chunks) found.insert(found.end(), chunk.begin(), chunk.end());
+    return found;
 }
 
 // Takes candidates, in the order of their hashes, into the sites where those so far leave room.
@@ -129,15 +142,15 @@ std::vector<CellSite> make_cell_sites(const CellPlan& plan) {
     const std::uint64_t key = coat_key(plan.seed, plan.coat);
     std::vector<CellSite> sites;
     for (const Candidate& seated : seat_photons(plan, key)) sites.push_back(seated.site);
-    std::vector<Candidate> lattice;
-    for_each_pixel(plan, [&](int x, int y) { add_lattice_points(plan, key, x, y, lattice); });
+    std::vector<Candidate> lattice = find_lattice_points(plan, key);
     take_in_order(lattice, sites);
     if (!sites.empty()) return sites;
-    for_each_pixel(plan, [&](int x, int y) { // a region so small that every point of the lattice missed it
-        if (sites.empty())
-            sites.push_back(make_site(Vec2f(Vec2(x + 0.5, y + 0.5)), plan.gbuffer.seen.at(x, y).position,
-                                      hash_words(key, 7)));
-    });
+    // A region so small that every point of the lattice missed it.
+    const PixelRect box = plan.region.box;
+    int x = box.x0;
+    while (x + 1 < box.x1 && plan.mask.at(x - box.x0, 0) == 0) ++x;
+    sites.push_back(make_site(Vec2f(Vec2(x + 0.5, box.y0 + 0.5)), plan.gbuffer.seen.at(x, box.y0).position,
+                              hash_words(key, 7)));
     return sites;
 }
 

@@ -5,10 +5,6 @@
 #include "npr/masked_blur.h"
 #include "npr/paint.h"
 
-#include <boost/container/small_vector.hpp>
-
-#include <span>
-
 namespace pnr {
 
 namespace {
@@ -16,128 +12,97 @@ namespace {
 // ---- one path
 // -----------------------------------------------------------------------------------------------------
 
-struct Walk {
-    int count = 0;              // steps to each side
-    float step = 1;             // canvas pixels
+struct Brush {
+    Walk walk;
     std::vector<float> weights; // k(s) of each step: Hann over the whole path, or box
 };
 
 // `length` is the whole path's, in canvas pixels, `step` at most so long.
-Walk make_walk(double length, double step, bool box) {
-    Walk walk;
+Brush make_brush(double length, double step, bool box) {
+    Brush brush;
+    Walk& walk = brush.walk;
     const double half = length / 2;
     walk.count = static_cast<int>(std::ceil(half / step - 1e-9));
-    if (walk.count <= 0) return walk;
+    if (walk.count <= 0) return brush;
     walk.step = static_cast<float>(half / walk.count);
     for (int k = 0; k < walk.count; ++k)
-        walk.weights.push_back(box ? 1.0f
-                                   : static_cast<float>(0.5 + 0.5 * std::cos(pi * (k + 0.5) / walk.count)));
-    return walk;
+        brush.weights.push_back(box ? 1.0f
+                                    : static_cast<float>(0.5 + 0.5 * std::cos(pi * (k + 0.5) / walk.count)));
+    return brush;
 }
 
-// One side's samples: cell and k(s) times the way, in the path's order.
-struct Side {
-    Path path;
-    std::uint32_t turn = 0; // of the sample in the next step
-    std::size_t count = 0;
-    std::vector<std::uint32_t> cells;
-    std::vector<float> weights;
+// Paths through some canvas pixels: at most `lanes`, then walked together.
+struct Bundle {
+    Starts starts;
+    int count = 0;
+    std::array<std::vector<MetRow>, 2> met; // on the way ahead, and on the way back
+};
 
-    void start(Vec2f at, Vec2f heading, std::uint32_t first) {
-        path = {at, heading};
-        turn = first;
-        count = 0;
+void add_path(Bundle& bundle, int x, int y) {
+    const auto i = static_cast<std::size_t>(bundle.count++);
+    bundle.starts.x[i] = x, bundle.starts.y[i] = y;
+    bundle.starts.turn[i] = static_cast<std::uint32_t>(mix_bits(
+        static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(static_cast<std::uint32_t>(x))));
+}
+
+void walk_bundle(const Canvas& canvas, const Walk& walk, Bundle& bundle) {
+    const auto last = static_cast<std::size_t>(bundle.count - 1);
+    for (std::size_t i = last + 1; i < lanes; ++i) {
+        bundle.starts.x[i] = bundle.starts.x[last], bundle.starts.y[i] = bundle.starts.y[last];
+        bundle.starts.turn[i] = bundle.starts.turn[last];
     }
-};
+    for (const int side : {0, 1})
+        walk_paths(canvas, walk, bundle.starts, side, bundle.met[static_cast<std::size_t>(side)]);
+}
 
-// The path through a canvas pixel, both ways.
-struct PixelPath {
-    int x = 0, y = 0;             // canvas pixel, without the rim
-    std::uint32_t here = no_cell; // its own cell
-    Side sides[2];
-};
-
-// Calls flush(cell, weight) for each run of samples in one cell along the path; `weight` is the sum of k(s)
-// over the run.
+// Calls flush(cell, weight) for each run of samples in one cell along a path of the bundle; `weight` is the
+// sum of k(s) over the run.
 template <class Flush>
-inline void for_each_run(const PixelPath& path, Flush&& flush) {
-    std::uint32_t run_cell = path.here;
+inline void integrate_path(const Bundle& bundle, int path, const Brush& brush, Flush&& flush) {
+    const auto lane = static_cast<std::size_t>(path);
+    std::uint32_t run_cell = no_cell;
     float run_weight = 0;
-    for (const Side& side : path.sides)
-        for (std::size_t i = 0; i < side.count; ++i) {
-            if (side.cells[i] != run_cell) {
+    for (const std::vector<MetRow>& met : bundle.met) {
+        for (const MetRow* row = met.data(); row->way[lane] > 0; ++row) {
+            if (row->cell[lane] != run_cell) {
                 if (run_weight > 0) flush(run_cell, run_weight);
-                run_cell = side.cells[i];
+                run_cell = row->cell[lane];
                 run_weight = 0;
             }
-            run_weight += side.weights[i];
+            run_weight += row->way[lane] * brush.weights[static_cast<std::size_t>(row->place[lane])];
         }
+    }
     if (run_weight > 0) flush(run_cell, run_weight);
 }
 
-// A step waits for what the one before has read; paths that are walked side by side wait together. Measured,
-// 26 steps each way: see bench_ilic.
-constexpr int abreast = 2; // pixels, with two sides each
-
-void walk_abreast(const Canvas& canvas, const Walk& walk, std::span<PixelPath> paths) {
-    const auto whole = static_cast<float>(walk.count);
-    for (PixelPath& path : paths) {
-        const int x = path.x + canvas.rim, y = path.y + canvas.rim;
-        const CanvasPoint& here = canvas.at(x, y);
-        const Vec2f start(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-        // One sample a stratum; its place goes round by the golden ratio from a start hashed from the pixel.
-        const auto first = static_cast<std::uint32_t>(mix_bits(
-            static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(static_cast<std::uint32_t>(x))));
-        path.here = here.cell;
-        path.sides[0].start(start, here.direction, first);
-        path.sides[1].start(start, -here.direction, first * 747796405u + 2891336453u);
+// Calls body(canvas x, canvas y, bundle, path), both without the rim, for the canvas pixels of a row whose
+// columns are multiples of `stride`.
+template <class Body>
+inline void follow_row(const RegionWork& work, const Brush& brush, int y, int stride, Bundle& bundle,
+                       Body&& body) {
+    const int rim = work.canvas.rim, columns = work.mask.width * work.scale;
+    const auto finish = [&] {
+        if (bundle.count == 0) return;
+        walk_bundle(work.canvas, brush.walk, bundle);
+        for (int path = 0; path < bundle.count; ++path)
+            body(bundle.starts.x[static_cast<std::size_t>(path)] - rim, y, bundle, path);
+        bundle.count = 0;
+    };
+    for (int x = 0; x < columns; x += stride) {
+        if (work.mask.at(x / work.scale, y / work.scale) == 0) continue;
+        add_path(bundle, x + rim, y + rim);
+        if (bundle.count == lanes) finish();
     }
-    bool going = true;
-    for (int k = 0; k < longest_way * walk.count && going; ++k) {
-        going = false;
-        for (PixelPath& path : paths)
-            for (Side& side : path.sides) {
-                if (!side.path.going) continue;
-                const float share = static_cast<float>(side.turn >> 8) * 0x1p-24f;
-                side.turn += 2654435769u;
-                step_path(canvas, side.path, walk.step, share, whole,
-                          [&](float before, float stretch, std::uint32_t cell) {
-                              side.cells[side.count] = cell;
-                              side.weights[side.count++] =
-                                  stretch * walk.weights[static_cast<std::size_t>(before)];
-                          });
-                going = going || side.path.going;
-            }
-    }
+    finish();
 }
 
-// Calls body(path) for every stride-th canvas pixel of the region each way, rows in parallel.
+// The same for every canvas pixel of the region, rows in parallel.
 template <class Body>
-void for_each_path(const RegionWork& work, const Walk& walk, int stride, Body&& body) {
-    const int rows = (work.mask.height * work.scale + stride - 1) / stride,
-              columns = work.mask.width * work.scale;
-    parallel_for(rows, 4, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
-        std::array<PixelPath, abreast> paths;
-        for (PixelPath& path : paths)
-            for (Side& side : path.sides) {
-                side.cells.resize(static_cast<std::size_t>(longest_way * walk.count));
-                side.weights.resize(side.cells.size());
-            }
-        std::size_t ready = 0;
-        const auto finish = [&] {
-            const std::span<PixelPath> some(paths.data(), ready);
-            walk_abreast(work.canvas, walk, some);
-            for (const PixelPath& path : some) body(path);
-            ready = 0;
-        };
-        for (int y = static_cast<int>(begin) * stride; y < static_cast<int>(end) * stride; y += stride)
-            for (int x = 0; x < columns; x += stride) {
-                if (work.mask.at(x / work.scale, y / work.scale) == 0) continue;
-                paths[ready].x = x;
-                paths[ready].y = y;
-                if (++ready == paths.size()) finish();
-            }
-        if (ready > 0) finish();
+void follow_all(const RegionWork& work, const Brush& brush, Body&& body) {
+    parallel_for(work.mask.height * work.scale, 8, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+        Bundle bundle;
+        for (std::int64_t y = begin; y < end; ++y)
+            follow_row(work, brush, static_cast<int>(y), 1, bundle, body);
     });
 }
 
@@ -146,10 +111,12 @@ struct Stroke {
     float height = 0, priority = 0;
 };
 
-Stroke convolve_at(const PixelPath& path, const std::vector<CellRecord>& records) {
+// `own`: the cell that the path begins in.
+Stroke convolve_path(const Bundle& bundle, int path, const Brush& brush,
+                     const std::vector<CellRecord>& records, std::uint32_t own) {
     glm::dvec3 base(0), deviates(0);
     double height = 0, priority = 0, weight = 0;
-    for_each_run(path, [&](std::uint32_t cell, float run) {
+    integrate_path(bundle, path, brush, [&](std::uint32_t cell, float run) {
         const CellRecord& record = records[cell];
         const double w = static_cast<double>(run) * record.weight;
         weight += w;
@@ -159,14 +126,14 @@ Stroke convolve_at(const PixelPath& path, const std::vector<CellRecord>& records
         priority += w * static_cast<double>(record.priority);
     });
     if (!(weight > 0)) { // length 0, or a region too thin to walk in
-        const CellRecord& record = records[path.here];
+        const CellRecord& record = records[own];
         return {record.base, record.deviates, record.height, record.priority};
     }
     return {Color(base / weight), Color(deviates / weight), static_cast<float>(height / weight),
             static_cast<float>(priority / weight)};
 }
 
-// What a coat comes to, from every fourth canvas pixel each way.
+// What a coat comes to, from some canvas pixels of a region in rows and columns.
 struct CoatSample {
     // By how much the noise must be raised so that its standard deviation after the convolution is the one
     // asked for: from the expected variance of the weighted means.
@@ -186,9 +153,11 @@ float priority_below(const CoatSample& sample, float share) {
 struct PathSample {
     double variance = 1, priority = 0;
 };
-PathSample sample_path(const PixelPath& path, const std::vector<CellRecord>& records) {
-    boost::container::small_vector<std::pair<std::uint32_t, double>, 32> met;
-    for_each_run(path, [&](std::uint32_t cell, float run) {
+PathSample sample_path(const Bundle& bundle, int path, const Brush& brush,
+                       const std::vector<CellRecord>& records, std::uint32_t own,
+                       std::vector<std::pair<std::uint32_t, double>>& met) {
+    met.clear();
+    integrate_path(bundle, path, brush, [&](std::uint32_t cell, float run) {
         const double w = static_cast<double>(run) * records[cell].weight;
         const auto known =
             std::find_if(met.begin(), met.end(), [&](const auto& m) { return m.first == cell; });
@@ -203,23 +172,41 @@ PathSample sample_path(const PixelPath& path, const std::vector<CellRecord>& rec
         squares += w * w;
         priority += w * static_cast<double>(records[cell].priority);
     }
-    if (!(total > 0)) return {1, static_cast<double>(records[path.here].priority)};
+    if (!(total > 0)) return {1, static_cast<double>(records[own].priority)};
     return {squares / (total * total), priority / total};
 }
 
-CoatSample sample_coat(const RegionWork& work, const Walk& walk, const std::vector<CellRecord>& records) {
+std::uint32_t cell_at(const RegionWork& work, int x, int y) {
+    return work.canvas.at(x + work.canvas.rim, y + work.canvas.rim).cell;
+}
+
+// Of so many pixels every n-th each way, that some 16,000 are left.
+int sample_stride(std::int64_t pixels) {
+    return std::clamp(static_cast<int>(std::sqrt(static_cast<double>(pixels) / 16384)), 1, 8);
+}
+
+CoatSample sample_coat(const RegionWork& work, const Brush& brush, const std::vector<CellRecord>& records) {
     constexpr float largest_gain = 16;
-    const int stride = work.region.pixels * work.scale * work.scale > 4096 ? 4 : 1;
+    const int rows = work.mask.height * work.scale;
+    const int stride = sample_stride(work.region.pixels * work.scale * work.scale);
+    const int sampled_rows = (rows + stride - 1) / stride;
     struct Row {
         double variance = 0;
         std::vector<float> priorities;
     };
-    std::vector<Row> by_row(static_cast<std::size_t>(work.mask.height * work.scale));
-    for_each_path(work, walk, stride, [&](const PixelPath& path) {
-        const PathSample found = sample_path(path, records);
-        Row& row = by_row[static_cast<std::size_t>(path.y)];
-        row.variance += found.variance;
-        row.priorities.push_back(static_cast<float>(found.priority));
+    std::vector<Row> by_row(static_cast<std::size_t>(sampled_rows));
+    parallel_for(sampled_rows, 4, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+        std::vector<std::pair<std::uint32_t, double>> met;
+        Bundle bundle;
+        for (std::int64_t r = begin; r < end; ++r) {
+            Row& row = by_row[static_cast<std::size_t>(r)];
+            const int y = static_cast<int>(r) * stride;
+            follow_row(work, brush, y, stride, bundle, [&](int x, int, const Bundle& paths, int path) {
+                const PathSample sampled = sample_path(paths, path, brush, records, cell_at(work, x, y), met);
+                row.variance += sampled.variance;
+                row.priorities.push_back(static_cast<float>(sampled.priority));
+            });
+        }
     });
     CoatSample sample;
     double variance = 0;
@@ -286,17 +273,16 @@ void paint_coat(RegionWork& work, const PaintLayer& coat, int coat_number, const
     const std::vector<CellRecord> records =
         sites.sites.empty() ? make_pixel_cells(work, coat, base, scaled(coat.cell, height), coat_number)
                             : make_site_cells(work, coat, base, sites);
-    const Walk walk =
-        make_walk(scaled(coat.length, height) * work.scale, canvas_step(work), work.style.box_weights);
-    const CoatSample sample = sample_coat(work, walk, records);
+    const Brush brush =
+        make_brush(scaled(coat.length, height) * work.scale, canvas_step(work), work.style.box_weights);
+    const CoatSample sample = sample_coat(work, brush, records);
     const Color noise = work.style.paper_mode
                             ? Color(static_cast<float>(coat.noise_lightness))
                             : sample.gain * Color(coat.noise_lightness, coat.noise_chroma, coat.noise_chroma);
     const bool covers = coat_number == 0 || (coat.bare == 0 && coat.bare_plain == 0);
     const int columns = work.mask.width * work.scale;
-    for_each_path(work, walk, 1, [&](const PixelPath& path) {
-        const int x = path.x, y = path.y;
-        const Stroke stroke = convolve_at(path, records);
+    follow_all(work, brush, [&](int x, int y, const Bundle& bundle, int path) {
+        const Stroke stroke = convolve_path(bundle, path, brush, records, cell_at(work, x, y));
         float alpha = coat_number == 0 ? 1.0f : static_cast<float>(coat.opacity);
         if (!covers) {
             const float detail = work.detail.at(x / work.scale, y / work.scale);
@@ -316,12 +302,12 @@ Image<float> make_bristles(RegionWork& work, const SiteGrid& sites) {
     PaintLayer hairs;
     hairs.edge = 0;
     const std::vector<CellRecord> records = make_site_cells(work, hairs, work.toned, sites);
-    const Walk walk =
-        make_walk(scaled(bristle_length, work.picture_height) * work.scale, canvas_step(work), false);
-    const float gain = sample_coat(work, walk, records).gain;
+    const Brush brush =
+        make_brush(scaled(bristle_length, work.picture_height) * work.scale, canvas_step(work), false);
+    const float gain = sample_coat(work, brush, records).gain;
     Image<float> marks(work.mask.width * work.scale, work.mask.height * work.scale, 0.0f);
-    for_each_path(work, walk, 1, [&](const PixelPath& path) {
-        marks.at(path.x, path.y) = gain * convolve_at(path, records).deviates.x;
+    follow_all(work, brush, [&](int x, int y, const Bundle& bundle, int path) {
+        marks.at(x, y) = gain * convolve_path(bundle, path, brush, records, cell_at(work, x, y)).deviates.x;
     });
     return marks;
 }

@@ -28,13 +28,20 @@ Folds find_folds(const GBuffer& gbuffer) {
     Folds folds;
     const int width = gbuffer.seen.width, height = gbuffer.seen.height;
     folds.walls = Image<std::uint8_t>(width, height, 0);
+    Image<float> widths(width, height, 0.0f);
+    parallel_for(height, 16, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
+            for (int x = 0; x < width; ++x)
+                if (is_painted(gbuffer.seen.at(x, y)))
+                    widths.at(x, y) = footprint_of(gbuffer.seen.at(x, y)).least;
+    });
     std::atomic<bool> any{false};
     parallel_for(height, 16, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
             for (int x = 0; x < width; ++x) {
                 const Seen& seen = gbuffer.seen.at(x, y);
                 if (!is_painted(seen)) continue;
-                const float pixel = footprint_of(seen).least;
+                const float pixel = widths.at(x, y);
                 if (!(pixel > 0)) continue;
                 std::uint8_t walls = 0;
                 for (int j = -1; j <= 1; ++j) {
@@ -44,8 +51,9 @@ Folds find_folds(const GBuffer& gbuffer) {
                         if (!is_painted(other) || other.object != seen.object || other.via != seen.via)
                             continue;
                         // The larger of the two pixels, so that both sides say the same.
-                        const float wider = std::max(pixel, footprint_of(other).least);
-                        if (is_fold(seen.position, seen.normal, other.position, other.normal, wider)) walls |= wall_bit(i, j);
+                        const float wider = std::max(pixel, widths.at(x + i, y + j));
+                        if (is_fold(seen.position, seen.normal, other.position, other.normal, wider))
+                            walls |= wall_bit(i, j);
                     }
                 }
                 folds.walls.at(x, y) = walls;

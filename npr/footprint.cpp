@@ -9,7 +9,9 @@ namespace pnr {
 Footprint footprint_of(const Seen& seen) {
     const float uu = glm::dot(seen.dpdx, seen.dpdx), uv = glm::dot(seen.dpdx, seen.dpdy),
                 vv = glm::dot(seen.dpdy, seen.dpdy);
-    const float middle = 0.5f * (uu + vv), radius = std::hypot(0.5f * (uu - vv), uv);
+    const float middle = 0.5f * (uu + vv), half = 0.5f * (uu - vv);
+    const float radius =
+        static_cast<float>(std::sqrt(static_cast<double>(half) * half + static_cast<double>(uv) * uv));
     const float most2 = middle + radius;
     if (!(most2 > 0)) return {};
     // The product of both is the area: stable where they differ much.

@@ -23,16 +23,16 @@ constexpr float least_stretch = 0.5f,
                 most_stretch = 4; // strokes at a silhouette would else be shorter than wide
 
 // How many pixels of the brush a step of one pixel along the direction is on the surface.
-float stretch_along(const BrushScale& brush, const Seen& seen, Vec2f direction) {
+float stretch_along(float brush_pixel, const Seen& seen, Vec2f direction) {
     const float length = glm::length(seen.dpdx * direction.x + seen.dpdy * direction.y);
-    return length > 0 ? std::clamp(length / brush_pixel(brush, seen), least_stretch, most_stretch) : 1;
+    return length > 0 ? std::clamp(length / brush_pixel, least_stretch, most_stretch) : 1;
 }
 
 // Directions once a region; the cells change with every coat.
 Canvas make_canvas(const RegionWork& work, double step) {
     Canvas canvas;
-    canvas.shift = work.scale - 1; // one or two
-    canvas.rim = static_cast<int>(std::ceil(step)) + 1;
+    canvas.scale = work.scale;
+    canvas.rim = static_cast<int>(std::ceil(2 * step)) + 1;
     canvas.width = work.mask.width * work.scale + 2 * canvas.rim;
     canvas.height = work.mask.height * work.scale + 2 * canvas.rim;
     canvas.points.resize(static_cast<std::size_t>(canvas.width) * static_cast<std::size_t>(canvas.height));
@@ -45,7 +45,8 @@ Canvas make_canvas(const RegionWork& work, double step) {
                     point.direction =
                         direction_at(work.axes, work.mask, Vec2f(Vec2(x + 0.5, y + 0.5)) * inverse);
                     if (!work.style.paper_mode)
-                        point.stretch = stretch_along(work.brush, seen_at(work, x, y), point.direction);
+                        point.stretch = stretch_along(brush_pixel(work.brush, x / work.scale, y / work.scale),
+                                                      seen_at(work, x, y), point.direction);
                 }
     });
     return canvas;
@@ -56,6 +57,23 @@ void add_walls(const Folds& folds, const Region& region, Canvas& canvas) {
     canvas.walls = Image<std::uint8_t>(box.x1 - box.x0, box.y1 - box.y0);
     for (int y = box.y0; y < box.y1; ++y)
         for (int x = box.x0; x < box.x1; ++x) canvas.walls.at(x - box.x0, y - box.y0) = folds.walls.at(x, y);
+    const auto is_near = [&](int x, int y) {
+        for (int j = -1; j <= 1; ++j)
+            for (int i = -1; i <= 1; ++i)
+                if (canvas.walls.contains(x + i, y + j) && canvas.walls.at(x + i, y + j) != 0) return true;
+        return false;
+    };
+    for (int y = 0; y < canvas.walls.height; ++y)
+        for (int x = 0; x < canvas.walls.width; ++x) {
+            if (!is_near(x, y)) continue;
+            for (int j = 0; j < canvas.scale; ++j)
+                for (int i = 0; i < canvas.scale; ++i) {
+                    float& stretch =
+                        canvas.at(x * canvas.scale + i + canvas.rim, y * canvas.scale + j + canvas.rim)
+                            .stretch;
+                    stretch = -stretch;
+                }
+        }
 }
 
 constexpr double bristle_height = 0.12; // of a mark of one standard deviation, in strokes
@@ -177,6 +195,29 @@ std::optional<std::pair<int, int>> nearest_painted(const Regions& regions, int x
     return best;
 }
 
+// What the painted light of each pixel's object comes to in the picture.
+void compose(const Regions& regions, const GBuffer& gbuffer, const World& world, const Image<Color>& light,
+             Layer& layer) {
+    parallel_for(light.height, 16, [&](std::int64_t begin, std::int64_t end, std::int64_t) {
+        for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+            for (int x = 0; x < light.width; ++x) {
+                const float coverage = gbuffer.coverage.at(x, y);
+                if (!(coverage > 0)) continue;
+                const bool own = regions.label.at(x, y) != 0;
+                const auto from = own ? std::optional(std::pair{x, y}) : nearest_painted(regions, x, y);
+                if (!from) continue;
+                const Seen& seen = gbuffer.seen.at(from->first, from->second);
+                const Color share =
+                    seen.weight * (coverage * static_cast<float>(world.objects[seen.object].paint.mix));
+                const Color color = light.at(from->first, from->second) * share;
+                if (!is_finite(color)) continue;
+                layer.color.at(x, y) = color;
+                layer.alpha.at(x, y) = (share.x + share.y + share.z) / 3;
+            }
+        }
+    });
+}
+
 } // namespace
 
 Layer convolve(const InformativeMap& informative, const Seats& seats, const World& world,
@@ -197,22 +238,7 @@ Layer convolve(const InformativeMap& informative, const Seats& seats, const Worl
                 if (regions.label.at(x, y) == label) light.at(x, y) = window.at(x - box.x0, y - box.y0);
         if (progress && !progress(r + 1, count)) throw Interrupted{};
     }
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const float coverage = gbuffer.coverage.at(x, y);
-            if (!(coverage > 0)) continue;
-            const bool own = regions.label.at(x, y) != 0;
-            const auto from = own ? std::optional(std::pair{x, y}) : nearest_painted(regions, x, y);
-            if (!from) continue;
-            const Seen& seen = gbuffer.seen.at(from->first, from->second);
-            const Color share =
-                seen.weight * (coverage * static_cast<float>(world.objects[seen.object].paint.mix));
-            const Color color = light.at(from->first, from->second) * share;
-            if (!is_finite(color)) continue;
-            layer.color.at(x, y) = color;
-            layer.alpha.at(x, y) = (share.x + share.y + share.z) / 3;
-        }
-    }
+    compose(regions, gbuffer, world, light, layer);
     return layer;
 }
 

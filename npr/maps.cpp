@@ -5,11 +5,15 @@
 
 namespace pnr {
 
+// Half the angle by the larger of sine and cosine, the other by the sine of the whole.
 Vec2f axis_direction(Vec2f axis) {
-    const float angle = 0.5f * std::atan2(axis.y, axis.x); // in [-pi/2, pi/2]
-    Vec2f d(std::cos(angle), std::sin(angle));
-    if (d.x < 1e-7f) d = {0, 1}; // both ends of the range are the vertical axis
-    return d;
+    const float length = glm::length(axis);
+    if (!(length > 0)) return {1, 0};
+    const float c = axis.x / length, s = axis.y / length;
+    const float larger = std::sqrt(0.5f + 0.5f * std::abs(c)), other = 0.5f * s / larger;
+    if (c >= 0) return {larger, other};
+    const Vec2f d(std::abs(other), std::copysign(larger, s));
+    return d.x < 1e-7f ? Vec2f(0, 1) : d; // both ends of the range are the vertical axis
 }
 
 Vec2f direction_axis(Vec2f d) {

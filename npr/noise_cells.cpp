@@ -2,7 +2,6 @@
 #include "npr/noise_cells.h"
 
 #include "core/rng.h"
-#include "npr/footprint.h"
 
 namespace pnr {
 
@@ -66,8 +65,9 @@ std::vector<CellRecord> make_site_cells(RegionWork& work, const PaintLayer& coat
         const Vec2f at =
             Vec2f(work.region.box.x0, work.region.box.y0) + Vec2f(Vec2(x + 0.5, y + 0.5)) * inverse;
         const Vec2f off = at - Vec2f(Vec2(px + 0.5, py + 0.5));
-        work.canvas.at(x + work.canvas.rim, y + work.canvas.rim).cell = nearest_site(
-            grid, at, seen.position + off.x * seen.dpdx + off.y * seen.dpdy, footprint_of(seen).least);
+        work.canvas.at(x + work.canvas.rim, y + work.canvas.rim).cell =
+            nearest_site(grid, at, seen.position + off.x * seen.dpdx + off.y * seen.dpdy,
+                         work.brush.spans.at(x / work.scale, y / work.scale));
     });
     return records;
 }
