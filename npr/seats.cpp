@@ -14,6 +14,14 @@ std::uint64_t hash_place(std::uint64_t key, Vec3f place) {
     return key;
 }
 
+namespace {
+
+// Cosine between a seat's normal and that of the pixel that shows it: photons on the rim of a thin part would
+// else give its face a colour that it has nowhere.
+constexpr float least_alike = 0.5f;
+
+} // namespace
+
 Seats find_seats(const World& world, const GBuffer& gbuffer, const PhotonMap& map) {
     Seats seats;
     seats.photons.resize(world.objects.size());
@@ -29,6 +37,7 @@ Seats find_seats(const World& world, const GBuffer& gbuffer, const PhotonMap& ma
     for (const auto& chunk : see_photons(world, gbuffer, map)) {
         for (const SeenPhoton& seen : chunk) {
             const Seen& pixel = gbuffer.seen.at(seen.x, seen.y);
+            if (glm::dot(map.normals[seen.photon], pixel.normal) < least_alike) continue;
             seats.seen.push_back(
                 {seen.at, map.photons[seen.photon].position, numbers[seen.photon], pixel.object, pixel.via});
         }
