@@ -18,6 +18,7 @@ struct SourceRows {
         std::int32_t x, y;
         std::uint64_t region;
         Color radiance;
+        Vec3f normal;
         Vec2f axis;      // (cos 2t, sin 2t)
         Vec2f direction; // as a plain vector with its sign, for paper_mode
     };
@@ -33,7 +34,7 @@ SourceRows collect_sources(const SparseMap& sparse) {
             rows.before.at(x, y) = static_cast<std::uint32_t>(rows.sources.size());
             const SourcePixel& s = sparse.at(x, y);
             if (s.photon < 0) continue;
-            rows.sources.push_back({x, y, region_key(s.object, s.via), s.radiance,
+            rows.sources.push_back({x, y, region_key(s.object, s.via), s.radiance, s.normal,
                                     direction_axis(s.direction), s.turned ? -s.direction : s.direction});
         }
         rows.before.at(sparse.width, y) = static_cast<std::uint32_t>(rows.sources.size());
@@ -85,16 +86,29 @@ struct NearestSources {
         regions; // points -> index of the source
     std::map<std::uint32_t, std::pair<KdTree, std::vector<std::uint32_t>>> objects;
 
+    // The nearest where the surface lies as it does here: what a thin part's rim looks like says nothing of
+    // its face.
     template <class Key>
     static std::optional<std::uint32_t>
-    find(const std::map<Key, std::pair<KdTree, std::vector<std::uint32_t>>>& trees, Key key, int x, int y,
-         std::vector<Neighbour>& found) {
+    find(const std::map<Key, std::pair<KdTree, std::vector<std::uint32_t>>>& trees, Key key,
+         const SourceRows& rows, int x, int y, Vec3f normal, std::vector<Neighbour>& found) {
+        constexpr std::size_t asked = 12;
+        constexpr float edge_on = 0.1f; // cosine below which one is as bad as another
         const auto it = trees.find(key);
         if (it == trees.end()) return {};
-        find_nearest(it->second.first, Vec3f(static_cast<float>(x), static_cast<float>(y), 0), 1,
-                     std::numeric_limits<float>::infinity(), found);
-        if (found.empty()) return {};
-        return it->second.second[found.front().index];
+        const Vec3f at(static_cast<float>(x), static_cast<float>(y), 0);
+        find_nearest(it->second.first, at, asked, std::numeric_limits<float>::infinity(), found);
+        std::optional<std::uint32_t> best;
+        float least = std::numeric_limits<float>::infinity();
+        for (const Neighbour& n : found) {
+            const std::uint32_t i = it->second.second[n.index];
+            const SourceRows::Source& s = rows.sources[i];
+            const float dx = static_cast<float>(s.x - x), dy = static_cast<float>(s.y - y),
+                        alike = std::max(edge_on, glm::dot(s.normal, normal));
+            const float cost = (dx * dx + dy * dy) / (alike * alike * alike * alike);
+            if (cost < least || (cost == least && best && i < *best)) least = cost, best = i;
+        }
+        return best;
     }
 };
 
@@ -180,11 +194,13 @@ InformativeMap make_informative_map(const SparseMap& sparse, const World& world,
                                        static_cast<std::uint64_t>(x));
                     continue;
                 }
-                auto match = NearestSources::find(nearest.regions, region, x, y, found);
+                auto match = NearestSources::find(nearest.regions, region, rows, x, y, seen.normal, found);
                 // A region without a source, such as a small reflection, has its own light and takes the
                 // direction from the object's other views.
                 pixel.radiance = match ? rows.sources[*match].radiance : source.radiance;
-                if (!match) match = NearestSources::find(nearest.objects, seen.object, x, y, found);
+                if (!match)
+                    match =
+                        NearestSources::find(nearest.objects, seen.object, rows, x, y, seen.normal, found);
                 pixel.axis = match ? rows.sources[*match].axis : Vec2f(1, 0);
                 pixel.turned = match && is_turned(Vec2(rows.sources[*match].direction));
             }

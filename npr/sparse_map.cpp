@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Steps 1 and 2 of [LW10 3.2.2], and the projection that ends step 3.
 #include "core/radiance.h"
-#include "npr/paint.h"
 #include "npr/footprint.h"
+#include "npr/paint.h"
 #include "npr/seen_photons.h"
 
 #include <atomic>
@@ -83,6 +83,7 @@ SparseMap make_sparse_map(const World& world, const GBuffer& gbuffer, const Phot
                 const auto photon = static_cast<std::size_t>(own ? 0 : source.photon);
                 const Vec3 position(own ? seen.position : map.photons[photon].position);
                 const Vec3 normal(own ? seen.normal : map.normals[photon]);
+                source.normal = Vec3f(normal);
                 // Hashed from the photon alone: its colour stays when the camera moves, but for the view's
                 // own share.
                 const std::uint64_t pixel =

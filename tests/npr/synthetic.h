@@ -63,6 +63,7 @@ inline SparseMap random_sources(const GBuffer& g, double share, std::uint64_t se
             s.direction = canonical_direction({std::cos(angle), std::sin(angle)});
             s.at = Vec2f(Vec2(x + rng.uniform(), y + rng.uniform()));
             s.z = 1;
+            s.normal = g.seen.at(x, y).normal;
             s.object = g.seen.at(x, y).object;
             s.via = g.seen.at(x, y).via;
         }
