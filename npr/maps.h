@@ -19,11 +19,11 @@ struct SourcePixel {
     std::int32_t photon = -1; // index into PhotonMap::photons
     Color radiance{0};        // leaving the photon's point towards the viewer
     Vec2f direction{0};       // unit, x right, y down, x > 0 or x = 0 and y > 0
-    Vec3f normal{0};          // the photon's
     Vec2f at{0};              // where in the picture the photon is seen, in pixels; inside its pixel
     float z = 0;              // as in gbuffer.exr
     std::uint32_t object = 0, via = 0;
     bool turned = false; // the photon's T goes against `direction`; matters to plain vectors alone
+    Vec3f normal{0};     // the photon's
 };
 using SparseMap = Image<SourcePixel>;
 
