@@ -68,7 +68,7 @@ TEST(Animation, PhotonsAreMadeAnewWhenTheWorldChanges) {
 TEST(Animation, AKilledRunGoesOnWhereItStopped) {
     const TemporaryFolder folder, whole;
     for (const TemporaryFolder* each : {&folder, &whole}) each->write("a.pnr", turning());
-    const Words words{"render", "a.pnr", "-W", "32", "-H", "24", "--frames", "1-4", "--skip-existing"};
+    const Words words{"render", "a.pnr", "-W", "240", "-H", "180", "--frames", "1-4", "--skip-existing"};
     ASSERT_EQ(run_pnr(whole, words).code, 0);
     EXPECT_EQ(run_pnr_and_signal(folder, words, SIGKILL, "frame 3").code, 128 + SIGKILL);
     const std::string first = folder.read("a0001.png");
