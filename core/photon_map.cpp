@@ -59,6 +59,18 @@ double mean_flux(std::span<const Photon> photons) {
     return photons.empty() ? 0 : sum / static_cast<double>(photons.size());
 }
 
+// The mean over flux, not over photons: what a watt comes with. Photons that were not aimed bring much more each than
+// those that were, and would stand alone as specks in discs of the others' width.
+double flux_of_most(std::span<const Photon> photons) {
+    double sum = 0, squares = 0;
+    for (const Photon& photon : photons) {
+        const auto flux = static_cast<double>(luminance(photon.flux));
+        sum += flux;
+        squares += flux * flux;
+    }
+    return sum > 0 ? squares / sum : 0;
+}
+
 // The irradiance in the middle of a caustic photon's disc, alone there, over that of the light about it.
 constexpr double spot = 0.004;
 
@@ -74,7 +86,7 @@ void name_radii(PhotonMap& map) {
     if (map.caustic.count == 0) return;
     // The map's radius holds 100 photons of other light: its irradiance.
     const double share =
-        2 * mean_flux(all.subspan(map.tree.count)) / (spot * 100 * mean_flux(all.first(map.tree.count)));
+        2 * flux_of_most(all.subspan(map.tree.count)) / (spot * 100 * mean_flux(all.first(map.tree.count)));
     map.caustic_radius = map.radius * static_cast<float>(std::sqrt(std::clamp(share, 1e-4, 4.0)));
 }
 

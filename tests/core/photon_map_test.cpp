@@ -84,6 +84,20 @@ TEST(PhotonMap, CausticsAloneHaveTheirOwnRadius) {
     EXPECT_LT(map.caustic_radius, 0.44f);
 }
 
+TEST(PhotonMap, AFewStrongCausticPhotonsAreNoSpecks) {
+    PhotonMap map = some_map(false);
+    int caustics = 0;
+    for (Photon& photon : map.photons) { // one caustic photon of 30 brings a thousand times as much as others
+        const bool caustic = photon.path() == PhotonPath::caustic;
+        photon.flux = Color(!caustic ? 1.0f : caustics++ % 30 == 0 ? 0.1f : 1e-4f);
+    }
+    build_photon_tree(map);
+    // The middle of a strong one's disc, alone there, beside the light of 100 photons in the map's radius.
+    const double alone = 2 * 0.1 / (map.caustic_radius * map.caustic_radius), about = 100 / (map.radius * map.radius);
+    EXPECT_LT(alone / about, 0.01);
+    EXPECT_LT(map.caustic_radius, map.radius);
+}
+
 TEST(PhotonMap, EmptyMapHasAnEmptyTree) {
     PhotonMap map;
     build_photon_tree(map);
